@@ -19,8 +19,7 @@ int main(void) {
     knurl_surface_desc_init(&surface, sizeof surface);
     surface.plane = &plane;
     surface.material = &material;
-    surface.rotation[0] = -0.70710678118654752; /* a quarter turn about x: the plane's front looks up, towards +y */
-    surface.rotation[3] = 0.70710678118654752;
+    surface.normal[1] = 1.0; /* the plane's front looks up */
 
     (void)knurl_device_zero_on_exit(0); /* whatever ends this program, its device is left without force */
     knurl_loop_desc desc;

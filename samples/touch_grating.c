@@ -49,8 +49,7 @@ static knurl_result add_plate(sample *s, int which) {
     surface.plane = &plane;
     surface.material = &material;
     surface.position[0] = 2.0 * HALF_WIDTH * (which - 1);
-    surface.rotation[0] = -0.70710678118654752; /* a quarter turn about x: the plate's front looks up, towards +y */
-    surface.rotation[3] = 0.70710678118654752;
+    surface.normal[1] = 1.0; /* the plate's front looks up */
     return knurl_scene_add_surface(s->scene, &surface, &s->plates[which]);
 }
 
@@ -58,7 +57,7 @@ static knurl_result add_plate(sample *s, int which) {
 static knurl_result build_scene(sample *s) {
     knurl_workspace workspace;
     knurl_hip_desc hip;
-    knurl_workspace_init(&workspace);
+    knurl_workspace_set_identity(&workspace);
     knurl_hip_desc_init(&hip, sizeof hip);
     hip.workspace = &workspace;
     knurl_result result = knurl_scene_create(NULL, &s->scene);

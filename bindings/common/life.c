@@ -48,7 +48,7 @@ void knurl_session_desc_init(knurl_session_desc *desc, uint32_t size) {
     defaults.stroke = "";
     defaults.update_rate_hz = 1000.0;
     defaults.heartbeat_s = 0.25;
-    knurl_workspace_init(&defaults.workspace);
+    knurl_workspace_set_identity(&defaults.workspace);
     memcpy(desc, &defaults, size < sizeof defaults ? size : sizeof defaults);
 }
 

@@ -9,6 +9,7 @@
 
 #include <knurl/audio.h>
 #include <knurl/loop.h>
+#include <knurl/query.h>
 #include <knurl/stroke.h>
 
 #ifdef __cplusplus

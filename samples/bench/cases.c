@@ -98,7 +98,7 @@ static knurl_result prepare(bench *b, const bench_case *c, subject *s, bench_res
     if (c->shape == BENCH_FOAW) {
         s->tick = tick_foaw;
         result->bytes = sizeof s->velocity;
-        return knurl_velocity_init(KNURL_VELOCITY_FOAW, BENCH_RESOLUTION, BENCH_RATE, &s->velocity);
+        return knurl_velocity_prepare(KNURL_VELOCITY_FOAW, BENCH_RESOLUTION, BENCH_RATE, &s->velocity);
     }
     if (c->shape == BENCH_GRATING) {
         s->tick = tick_grating;

@@ -134,7 +134,7 @@ static knurl_result configure_hips(knurl_scene *scene, const bench_case *c) {
     for (uint32_t hip = 0; hip < c->hips && !result; hip++) {
         knurl_hip_desc d;
         knurl_workspace workspace;
-        knurl_workspace_init(&workspace);
+        knurl_workspace_set_identity(&workspace);
         knurl_hip_desc_init(&d, sizeof d);
         d.update_rate_hz = BENCH_RATE;
         d.resolution = c->estimates ? BENCH_RESOLUTION : 0.0;

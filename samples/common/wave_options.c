@@ -34,7 +34,7 @@ int tool_read_wave(int argc, char **argv, const tool_option *more, tool_wave *ou
         return tool_error(TOOL_USAGE, "%s: --method: expected T1, T2 or T3, found '%s'", argv[0], method);
     }
     out->period_s = period_ms / 1000.0;
-    if (knurl_wave_init(id, out->period_s, out->amplitude, out->rate, &out->wave)) {
+    if (knurl_wave_prepare(id, out->period_s, out->amplitude, out->rate, &out->wave)) {
         return tool_library_error(TOOL_USAGE, argv[0]);
     }
     if (out->wave.above_nyquist) {

@@ -101,7 +101,7 @@ typedef struct judge {
 } judge;
 
 /* Starts a trial, with its own device and loop. Breaches and counts stay. ramp_s: the loop's. slew_rate: the HIP's,
- * or 0. */
+ * N/s, or KNURL_DEFAULT. */
 void judge_begin(judge *j, const knurl_device_info *info, double rate_hz, double ramp_s, double slew_rate);
 
 /* Another loop on the same device: gains and contacts start again, heat continues. */

@@ -60,7 +60,7 @@ void judge_surface_gone(judge *j, knurl_surface_id id) {
 }
 
 void judge_vibrate(judge *j, int32_t method, double frequency_hz, double amplitude, double seconds) {
-    if (knurl_wave_init(method, 1.0 / frequency_hz, amplitude, j->rate, &j->wave) == KNURL_OK) {
+    if (knurl_wave_prepare(method, 1.0 / frequency_hz, amplitude, j->rate, &j->wave) == KNURL_OK) {
         const uint64_t event =
             method == KNURL_WAVE_T3 ? (uint64_t)j->wave.parts[0].length : 1; /* T3 ends after a whole cycle */
         j->wave_ticks = ((uint64_t)ceil(seconds * j->rate) + event - 1) / event * event;

@@ -45,7 +45,7 @@ static int begin(trial *t, uint64_t seed) {
     t->is_stepped = can == 1;
     t->j->slack = t->is_stepped ? 0 : SLACK;
     t->rate = t->is_stepped ? trial_rate(t) : 1000.0;
-    t->slew_rate = trial_uniform(t) < 0.7 ? 0.0 : 200.0 * t->info.max_force * trial_between(t, 0.1, 1.5);
+    t->slew_rate = trial_uniform(t) < 0.7 ? KNURL_DEFAULT : 200.0 * t->info.max_force * trial_between(t, 0.1, 1.5);
     judge_begin(t->j, &t->info, t->rate, ramp_s, t->slew_rate);
     if (can < 0 || trial_make_scene(t) || trial_make_loop(t, ramp_s)) {
         knurl_loop_destroy(t->loop);

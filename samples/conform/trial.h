@@ -31,7 +31,7 @@ typedef struct trial {
     knurl_device_info info;
     uint64_t random;
     double rate;      /* Hz: of ticks */
-    double slew_rate; /* N/s: the HIP's; 0: the default */
+    double slew_rate; /* N/s: the HIP's; or KNURL_DEFAULT */
     knurl_surface_id surfaces[TRIAL_SURFACES];
     int surface_count;
     int is_stepped;

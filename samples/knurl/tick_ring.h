@@ -2,7 +2,7 @@
 #ifndef KNURL_TOOL_TICK_RING_H
 #define KNURL_TOOL_TICK_RING_H
 
-#include <knurl/scene.h>
+#include <knurl/hip.h>
 
 #include <stdint.h>
 

@@ -9,6 +9,7 @@
 #include "say.h"
 
 #include <knurl/gltf.h>
+#include <knurl/query.h>
 
 #include <stddef.h>
 #include <stdint.h>

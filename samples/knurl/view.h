@@ -2,7 +2,8 @@
 #ifndef KNURL_TOOL_VIEW_H
 #define KNURL_TOOL_VIEW_H
 
-#include <knurl/scene.h>
+#include <knurl/hip.h>
+#include <knurl/query.h>
 
 /* Doubles that a tick has in a message: force (3), HIP (3), proxy (3), depth, height, f_t, cycles (2), 1 in contact,
  * surface index or -1, t, vx, vy, fs, normal (3); as samples/web/web.c has them. */

@@ -7,9 +7,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#define RIDGE      0.001
-#define RESOLUTION 0.055e-3 /* the Touch's */
-#define START      0.123    /* cycles: no edge, no crest and no middle */
+#define TAU         6.283185307179586
+#define RIDGE       0.001
+#define RESOLUTION  0.055e-3 /* the Touch's */
+#define LOW_PASS_HZ 20.0     /* as late as FOAW's widest window, 8 ms. 10 Hz halves its error and doubles its delay */
+#define START       0.123    /* cycles: no edge, no crest and no middle */
 
 const study_method study_methods[] = {{"T1", KNURL_WAVE_T1, 0, 0},
                                       {"T2", KNURL_WAVE_T2, 0, 0},
@@ -51,11 +53,21 @@ void study_contender_name(const study_contender *c, char *name, size_t size) {
     }
 }
 
+double study_low_pass_tick(study_low_pass *low_pass, double cutoff_hz, double rate, double x) {
+    const double share = 1.0 - exp(-TAU * cutoff_hz / rate);
+    const double difference = low_pass->started ? (x - low_pass->last) * rate : 0.0;
+    low_pass->smooth += share * (difference - low_pass->smooth);
+    low_pass->last = x;
+    low_pass->started = 1;
+    return low_pass->smooth;
+}
+
 int study_rendering_start(study_rendering *r, const study_contender *contender, double frequency) {
     memset(r, 0, sizeof *r);
     r->contender = *contender;
     if (!contender->method->spatial) {
-        return knurl_wave_init(contender->method->id, 1.0 / frequency, 1.0, contender->update_rate_hz, &r->wave) != 0;
+        return knurl_wave_prepare(contender->method->id, 1.0 / frequency, 1.0, contender->update_rate_hz, &r->wave) !=
+               0;
     }
     r->speed = frequency * contender->ridge;
     r->grating.spatial_frequency[0] = 1.0 / contender->ridge;
@@ -63,10 +75,9 @@ int study_rendering_start(study_rendering *r, const study_contender *contender, 
     r->grating.update_rate_hz = contender->update_rate_hz;
     r->grating.method = contender->method->id;
     r->grating.resolution = contender->resolution;
-    static const int32_t estimators[] = {KNURL_VELOCITY_DIFFERENCE, KNURL_VELOCITY_DIFFERENCE, KNURL_VELOCITY_LOWPASS,
-                                         KNURL_VELOCITY_FOAW};
+    const int32_t estimator = contender->velocity == STUDY_FOAW ? KNURL_VELOCITY_FOAW : KNURL_VELOCITY_DIFFERENCE;
     return knurl_grating_check(&r->grating) ||
-           knurl_velocity_init(estimators[contender->velocity], RESOLUTION, contender->update_rate_hz, &r->estimator);
+           knurl_velocity_prepare(estimator, RESOLUTION, contender->update_rate_hz, &r->estimator);
 }
 
 /* An event is one cycle, the six-tick mix 2.4 of 2.5 ticks; without events, two changes of sign are one. */
@@ -92,7 +103,9 @@ double study_rendering_tick_at(study_rendering *r, double x, double speed) {
     const double position[3] = {quantum > 0.0 ? floor(x / quantum + 0.5) * quantum : x, 0.0, 0.0};
     double velocity[3] = {speed, 0.0, 0.0};
     knurl_grating_output output;
-    if (r->contender.method->uses_velocity && r->contender.velocity != STUDY_IDEAL) {
+    if (r->contender.method->uses_velocity && r->contender.velocity == STUDY_LOWPASS) {
+        velocity[0] = study_low_pass_tick(&r->low_pass, LOW_PASS_HZ, r->contender.update_rate_hz, position[0]);
+    } else if (r->contender.method->uses_velocity && r->contender.velocity != STUDY_IDEAL) {
         knurl_velocity_update(&r->estimator, position, velocity);
     }
     knurl_grating_step(&r->grating, &r->state, position, velocity, &output);

@@ -36,6 +36,16 @@ int study_contender_at(size_t index, study_contender *contender);
 /** "S2 1000 Hz, FOAW from 0.055 mm" */
 void study_contender_name(const study_contender *contender, char *name, size_t size);
 
+/** A first-order low pass of differences: what the library's estimators are compared with. Zeroed before the first
+ * tick. */
+typedef struct study_low_pass {
+    int started;
+    double last, smooth; /**< the latest position (m) and velocity (m/s) */
+} study_low_pass;
+
+/** The velocity (m/s) at position x (m). */
+double study_low_pass_tick(study_low_pass *low_pass, double cutoff_hz, double rate, double x);
+
 /** A contender at work on one frequency: a grating scanned at a steady speed, or a temporal signal. */
 typedef struct study_rendering {
     study_contender contender;
@@ -45,6 +55,7 @@ typedef struct study_rendering {
     knurl_grating grating;
     knurl_grating_state state;
     knurl_velocity estimator;
+    study_low_pass low_pass;
     double cycles_played; /**< events (the 400 Hz mix: 2.4 cycles), or sign changes / 2 */
     double last;
     double within; /**< the share of its event that is over before the latest tick; below 0 without an event */

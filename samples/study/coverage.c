@@ -24,7 +24,7 @@ size_t study_reachable(double update_rate_hz, double lowest_hz, int set, study_r
     int32_t last = 0;
     /* Algorithm 6 decides on quarters of a tick: asking for each of them meets every event there is */
     for (int32_t quarters = 8; quarters <= 4.0 * update_rate_hz / lowest_hz * (1.0 + 1e-9); quarters++) {
-        if (knurl_vibration_event_init(0.25 * quarters, 1.0, &event) || event.length * 4 + event.kind == last) {
+        if (knurl_vibration_event_prepare(0.25 * quarters, 1.0, &event) || event.length * 4 + event.kind == last) {
             continue;
         }
         last = event.length * 4 + event.kind;

@@ -28,7 +28,7 @@ typedef struct study_gap {
     double high;
 } study_gap;
 
-/** The frequencies that T3 (knurl_vibration_event_init()) plays from `lowest_hz` to half the update rate, ascending;
+/** The frequencies that T3 (knurl_vibration_event_prepare()) plays from `lowest_hz` to half the update rate, ascending;
  * those of `set` only. reach: STUDY_MAX_REACH. Returns their number. */
 size_t study_reachable(double update_rate_hz, double lowest_hz, int set, study_reach *reach);
 

@@ -38,7 +38,7 @@ static int measure_method(const bench_fixture *fixture, int method, device_row *
     study_signal command;
     study_line line;
     bench_reading reading;
-    if (knurl_wave_init(KNURL_WAVE_T1 + method, row->period / BENCH_UPDATE_RATE, 1.0, BENCH_UPDATE_RATE, &wave) ||
+    if (knurl_wave_prepare(KNURL_WAVE_T1 + method, row->period / BENCH_UPDATE_RATE, 1.0, BENCH_UPDATE_RATE, &wave) ||
         !study_signal_of_wave(&wave, BENCH_UPDATE_RATE, &command)) {
         return 0;
     }

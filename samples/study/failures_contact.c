@@ -14,7 +14,7 @@
 static int make_scene(uint32_t without, knurl_scene **scene) {
     knurl_hip_desc hip;
     knurl_workspace workspace;
-    knurl_workspace_init(&workspace);
+    knurl_workspace_set_identity(&workspace);
     knurl_hip_desc_init(&hip, sizeof hip);
     hip.workspace = &workspace;
     hip.resolution = 0.0;

@@ -15,7 +15,7 @@ int failure_difference(const failure_sink *sink, double *number) {
     knurl_velocity estimator;
     double least = HUGE_VAL;
     double most = -HUGE_VAL;
-    if (knurl_velocity_init(KNURL_VELOCITY_DIFFERENCE, RESOLUTION, GRATINGS_RATE, &estimator)) {
+    if (knurl_velocity_prepare(KNURL_VELOCITY_DIFFERENCE, RESOLUTION, GRATINGS_RATE, &estimator)) {
         return 0;
     }
     for (size_t k = 0; k < 200; k++) {
@@ -39,7 +39,7 @@ int failure_difference(const failure_sink *sink, double *number) {
 int failure_foaw_pulses(const failure_sink *sink, double *number) {
     knurl_velocity estimator;
     *number = 0.0;
-    if (knurl_velocity_init(KNURL_VELOCITY_FOAW, RESOLUTION, GRATINGS_RATE, &estimator)) {
+    if (knurl_velocity_prepare(KNURL_VELOCITY_FOAW, RESOLUTION, GRATINGS_RATE, &estimator)) {
         return 0;
     }
     for (size_t k = 0; k < 400; k++) {

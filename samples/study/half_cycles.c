@@ -54,7 +54,7 @@ static knurl_result add_surface(knurl_scene *scene, const wavy_sheet *sheet, dou
 static knurl_result reset_hip(knurl_scene *scene) {
     knurl_hip_desc d;
     knurl_workspace workspace;
-    knurl_workspace_init(&workspace);
+    knurl_workspace_set_identity(&workspace);
     knurl_hip_desc_init(&d, sizeof d);
     d.update_rate_hz = HALF_CYCLES_RATE;
     d.resolution = 0.0;

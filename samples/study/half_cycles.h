@@ -14,7 +14,8 @@
 
 #include "sheet.h"
 
-#include <knurl/scene.h>
+#include <knurl/hip.h>
+#include <knurl/query.h>
 
 #define HALF_CYCLES_RATE      1000.0 /* Hz */
 #define HALF_CYCLES_STIFFNESS 800.0  /* N/m */

@@ -141,7 +141,7 @@ static knurl_result make_scene(const lab_case *c, const knurl_device_info *info,
     knurl_surface_desc_init(&surface, sizeof surface);
     knurl_material_desc_init(&material, sizeof material);
     knurl_plane_desc_init(&plane, sizeof plane);
-    knurl_workspace_init(&workspace);
+    knurl_workspace_set_identity(&workspace);
     knurl_hip_desc_init(&hip, sizeof hip);
     desc.max_surfaces = 1;
     plane.half_extents[0] = 2.0;

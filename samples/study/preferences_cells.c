@@ -45,7 +45,8 @@ static int measure(int32_t method, double period_ticks, vibration *out) {
     study_signal signal;
     study_signal whole;
     study_line line;
-    if (knurl_wave_init(method, period_ticks / RATE, 1.0, RATE, &wave) || !study_signal_of_wave(&wave, RATE, &signal)) {
+    if (knurl_wave_prepare(method, period_ticks / RATE, 1.0, RATE, &wave) ||
+        !study_signal_of_wave(&wave, RATE, &signal)) {
         return 0;
     }
     /* as many actual periods as hold a whole number of the cycles asked for: twice the period is whole in every cell */

@@ -24,8 +24,8 @@ static int parts_of(const knurl_wave *wave, knurl_vibration_event parts[2]) {
     }
     if (wave->method == KNURL_WAVE_T3 && wave->parts[0].kind == KNURL_EVENT_MIXED) {
         const double root = sqrt(13.0);
-        return knurl_vibration_event_init(2.0, 2.0 * AMPLITUDE / root, &parts[0]) ||
-                       knurl_vibration_event_init(3.0, 3.0 * AMPLITUDE / root, &parts[1])
+        return knurl_vibration_event_prepare(2.0, 2.0 * AMPLITUDE / root, &parts[0]) ||
+                       knurl_vibration_event_prepare(3.0, 3.0 * AMPLITUDE / root, &parts[1])
                    ? 0
                    : 2;
     }
@@ -119,7 +119,7 @@ static int write_all(FILE *csv, json_writer *json, void *user) {
     for (size_t p = 0; p < PERIODS; p++) {
         for (int32_t method = KNURL_WAVE_T1; method <= KNURL_WAVE_T3; method++) {
             knurl_wave wave;
-            if (knurl_wave_init(method, 1e-3 * periods_ms[p], AMPLITUDE, RATE_HZ, &wave) ||
+            if (knurl_wave_prepare(method, 1e-3 * periods_ms[p], AMPLITUDE, RATE_HZ, &wave) ||
                 write_cell(json, &wave, p)) {
                 return tool_error(2, "study: signals: %s at %g ms cannot be measured", wave_method_name(method),
                                   periods_ms[p]);

@@ -50,7 +50,8 @@ double velocity_cost(const velocity_contender *contender, double resolution, dou
     velocity_estimator e;
     study_cost empty;
     study_cost cost;
-    if (contender->method == KNURL_VELOCITY_AUTO || velocity_start(&e, contender, resolution, rate)) {
+    if (contender->method == KNURL_VELOCITY_AUTO || contender->method == VELOCITY_LOW_PASS ||
+        velocity_start(&e, contender, resolution, rate)) {
         return -1.0;
     }
     t.estimator = e.estimator;

@@ -69,7 +69,7 @@ static int measure(int32_t method, int tenths, measured *m) {
     m->window_net = NAN;
     m->window_dominant.amplitude = NAN;
     m->window_dominant.frequency = NAN;
-    if (knurl_wave_init(method, tenths / 10.0 / RATE_HZ, AMPLITUDE, RATE_HZ, &wave) ||
+    if (knurl_wave_prepare(method, tenths / 10.0 / RATE_HZ, AMPLITUDE, RATE_HZ, &wave) ||
         !study_signal_of_wave(&wave, RATE_HZ, &m->signal) || !study_dominant(&m->signal, &m->dominant)) {
         return 0;
     }

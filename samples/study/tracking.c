@@ -46,7 +46,8 @@ static int start(tracker *t, int kind, double ridge) {
     t->grating.update_rate_hz = RATE;
     t->grating.method = KNURL_METHOD_BANDLIMITED;
     t->grating.resolution = kind == OBSERVER ? 0.0 : COUNT; /* what it gets from the observer is taken as it is */
-    return !knurl_grating_check(&t->grating) && !knurl_velocity_init(KNURL_VELOCITY_FOAW, COUNT, RATE, &t->estimator);
+    return !knurl_grating_check(&t->grating) &&
+           !knurl_velocity_prepare(KNURL_VELOCITY_FOAW, COUNT, RATE, &t->estimator);
 }
 
 static void observe(tracker *t, double measured) {

@@ -91,7 +91,7 @@ static knurl_result build(int32_t method, double fs_right, knurl_scene **scene, 
     knurl_hip_desc hip;
     knurl_workspace workspace;
     knurl_hip_desc_init(&hip, sizeof hip);
-    knurl_workspace_init(&workspace);
+    knurl_workspace_set_identity(&workspace);
     hip.workspace = &workspace;
     return result ? result : knurl_scene_configure_hip(*scene, 0, &hip);
 }

@@ -6,6 +6,8 @@
 #ifndef KNURL_STUDY_VELOCITY_H
 #define KNURL_STUDY_VELOCITY_H
 
+#include "contender.h"
+
 #include <knurl/knurl.h>
 
 #include <stddef.h>
@@ -17,12 +19,16 @@
 #define VELOCITY_WOBBLE_HZ 9.0
 #define VELOCITY_STROKE_HZ 2.0 /* to and fro, where delay is measured */
 
+/** An estimator beside the library's. */
+enum { VELOCITY_LOW_PASS = 100 };
+
 /** One estimator of the chart. */
 typedef struct velocity_contender {
     const char *name;
     int32_t method;   /**< KNURL_VELOCITY_; KNURL_VELOCITY_AUTO: FOAW as published: any window of up to 15 ticks,
-                           whatever the rate, the slope from its newest to its oldest sample, no backlash */
-    double cutoff_hz; /**< LOWPASS: in place of KNURL_VELOCITY_LOWPASS_HZ */
+                           whatever the rate, the slope from its newest to its oldest sample, no backlash; or
+                           VELOCITY_LOW_PASS */
+    double cutoff_hz; /**< of the low pass */
 } velocity_contender;
 
 /** All of them, ended by a null name. */
@@ -33,9 +39,9 @@ typedef struct velocity_estimator {
     const velocity_contender *contender;
     knurl_velocity estimator;
     double resolution, rate;
-    int64_t counts[16];  /**< as published: the newest first */
-    int seen;            /**< as published: how many of them there are; LOWPASS: 1 after the first position */
-    double last, smooth; /**< LOWPASS: the latest position (m) and velocity (m/s) */
+    study_low_pass low_pass;
+    int64_t counts[16]; /**< as published: the newest first */
+    int seen;           /**< as published: how many of them there are */
 } velocity_estimator;
 
 /** Starts it. 0, or 1 where the library refuses. */

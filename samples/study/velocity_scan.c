@@ -11,9 +11,9 @@
 #define CYCLES  20.0              /* of the grating, at least, in a run */
 
 const velocity_contender velocity_contenders[] = {{"difference", KNURL_VELOCITY_DIFFERENCE, 0.0},
-                                                  {"low pass, 10 Hz", KNURL_VELOCITY_LOWPASS, 10.0},
-                                                  {"low pass, 20 Hz", KNURL_VELOCITY_LOWPASS, 20.0},
-                                                  {"low pass, 40 Hz", KNURL_VELOCITY_LOWPASS, 40.0},
+                                                  {"low pass, 10 Hz", VELOCITY_LOW_PASS, 10.0},
+                                                  {"low pass, 20 Hz", VELOCITY_LOW_PASS, 20.0},
+                                                  {"low pass, 40 Hz", VELOCITY_LOW_PASS, 40.0},
                                                   {"FOAW as published", KNURL_VELOCITY_AUTO, 0.0},
                                                   {"FOAW", KNURL_VELOCITY_FOAW, 0.0},
                                                   {NULL, 0, 0.0}};
@@ -56,10 +56,8 @@ int velocity_start(velocity_estimator *e, const velocity_contender *contender, d
     e->contender = contender;
     e->resolution = resolution;
     e->rate = rate;
-    if (knurl_velocity_init(contender->method, resolution, rate, &e->estimator)) {
-        return 1;
-    }
-    return 0;
+    return contender->method != VELOCITY_LOW_PASS &&
+           knurl_velocity_prepare(contender->method, resolution, rate, &e->estimator);
 }
 
 /* Janabi-Sharifi, Hayward and Chen 2000, the widest window that fits; slopes over i ticks times 360360 are integers. */
@@ -80,24 +78,14 @@ static double as_published(velocity_estimator *e, int64_t counts) {
     return (double)best / 360360.0 * e->resolution * e->rate;
 }
 
-/* The library's low pass at any cutoff. */
-static double low_pass(velocity_estimator *e, double x) {
-    const double share = 1.0 - exp(-TAU * e->contender->cutoff_hz / e->rate);
-    const double difference = e->seen ? (x - e->last) * e->rate : 0.0;
-    e->smooth += share * (difference - e->smooth);
-    e->last = x;
-    e->seen = 1;
-    return e->smooth;
-}
-
 double velocity_of(velocity_estimator *e, double x) {
     const double position[3] = {x, 0.0, 0.0};
     double velocity[3];
     if (e->contender->method == KNURL_VELOCITY_AUTO) {
         return as_published(e, (int64_t)floor(x / e->resolution + 0.5));
     }
-    if (e->contender->method == KNURL_VELOCITY_LOWPASS) {
-        return low_pass(e, x);
+    if (e->contender->method == VELOCITY_LOW_PASS) {
+        return study_low_pass_tick(&e->low_pass, e->contender->cutoff_hz, e->rate, x);
     }
     knurl_velocity_update(&e->estimator, position, velocity);
     return velocity[0];

@@ -2,7 +2,8 @@
  * scene's, m and N. SPDX-License-Identifier: MIT */
 #include <knurl/audio.h>
 #include <knurl/gltf.h>
-#include <knurl/scene.h>
+#include <knurl/hip.h>
+#include <knurl/query.h>
 
 #include <emscripten.h>
 #include <math.h>
@@ -27,7 +28,7 @@ static void begin_hip(void) {
 static knurl_result open_hip(void) {
     knurl_workspace workspace;
     knurl_audio_desc desc;
-    knurl_workspace_init(&workspace); /* the device is the scene */
+    knurl_workspace_set_identity(&workspace); /* the device is the scene */
     hip.workspace = &workspace;
     knurl_audio_desc_init(&desc, sizeof desc);
     desc.update_rate_hz = hip.update_rate_hz;

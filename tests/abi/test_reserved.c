@@ -58,7 +58,7 @@ TEST(outputs_of_a_tick_have_zeros_where_they_are_reserved) {
 
 TEST(a_workspace_has_zeros_where_it_is_reserved) {
     knurl_workspace workspace;
-    knurl_workspace_init(&workspace);
+    knurl_workspace_set_identity(&workspace);
     assert_int_equal(knurl_workspace_check(&workspace), KNURL_OK);
     for (size_t i = 0; i < COUNT_OF(workspace.reserved); i++) {
         workspace.reserved[i] = 2.0;

@@ -31,10 +31,11 @@ MODULES = {
     "loop": {"base", "scene", "hip", "guard", "device", "motion", "vibration"},  # workspaces are motion's; games add vibrations
     "gltf": {"scene", "grating", "contact"},
 }
-# Public headers that a room may use beside its own modules': the scene's rooms are declared in one.
-DECLARED_IN = {room: {"scene"} for room in ("surface", "proxy", "guard", "hip")}
+# Public headers that a room may use beside its own modules': the scene's rooms are declared in two.
+DECLARED_IN = {room: {"scene", "hip"} for room in ("surface", "proxy", "guard", "hip")}
 DECLARED_IN["stroke"] = {"scene", "fake"}
 DECLARED_IN["device"] = {"device_functions", "fake"}
+DECLARED_IN["audio"] = {"hip"}
 # Headers with nothing to link, for what is linked with the library's public functions only: gltf, bindings and samples.
 HEADER_ONLY = {"base/atomic", "base/finite", "base/handle", "base/regular_file", "base/seqlock"}
 

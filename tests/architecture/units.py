@@ -11,6 +11,7 @@ import subprocess
 
 LIBRARY = "sdk/src"
 PUBLIC = "sdk/include/knurl"
+DECLARES = {"query": "scene"}  # public header: its module, if that has another name
 FOLDERS = (LIBRARY, "bindings", "samples")
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<knurl/(\w+)\.h>)', re.MULTILINE)
 NO_CODE = re.compile(r'/\*.*?\*/|//[^\n]*|"(?:\\.|[^"\\\n])*"|\\\n', re.DOTALL)  # comments, strings, lines that go on
@@ -80,7 +81,7 @@ class Code:
             self.named[path] = named_in_header(text)
         for quoted, public in INCLUDE.findall(text):
             if public:
-                self.public[path].add(public)
+                self.public[path].add(DECLARES.get(public, public))
                 continue
             for folder in (os.path.dirname(path), *self._roots(path), LIBRARY):
                 there = os.path.normpath(os.path.join(folder, quoted))

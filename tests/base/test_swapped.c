@@ -5,6 +5,7 @@
 
 #include <knurl/device.h>
 #include <knurl/gltf.h>
+#include <knurl/query.h>
 
 #include <fcntl.h>
 #include <sys/syscall.h>

@@ -142,10 +142,10 @@ static void fill_structs(fixture *f) {
     w->grating.update_rate_hz = 1000.0;
     w->grating.method = KNURL_METHOD_BANDLIMITED;
     w->session_desc.device = "fake";
-    knurl_workspace_init(&w->workspace);
-    NEED_OK(knurl_vibration_event_init(5.0, 1e-4, &w->vibration_event));
-    NEED_OK(knurl_wave_init(KNURL_WAVE_T3, 0.01, 1.0, 1000.0, &w->wave));
-    NEED_OK(knurl_velocity_init(KNURL_VELOCITY_AUTO, 0.0, 1000.0, &w->velocity));
+    knurl_workspace_set_identity(&w->workspace);
+    NEED_OK(knurl_vibration_event_prepare(5.0, 1e-4, &w->vibration_event));
+    NEED_OK(knurl_wave_prepare(KNURL_WAVE_T3, 0.01, 1.0, 1000.0, &w->wave));
+    NEED_OK(knurl_velocity_prepare(KNURL_VELOCITY_AUTO, 0.0, 1000.0, &w->velocity));
 }
 
 /* Handles that were destroyed, the last of all, so that nothing else has their memory. */

@@ -4,7 +4,7 @@
 
 static knurl_workspace at(double x, double z, double scale) {
     knurl_workspace workspace;
-    knurl_workspace_init(&workspace);
+    knurl_workspace_set_identity(&workspace);
     workspace.origin[0] = x;
     workspace.origin[2] = z;
     workspace.scale = scale;

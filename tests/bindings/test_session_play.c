@@ -23,7 +23,7 @@ static knurl_workspace turned(void) {
     const double c = cos(0.4);
     const double rotation[9] = {c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0};
     knurl_workspace workspace;
-    knurl_workspace_init(&workspace);
+    knurl_workspace_set_identity(&workspace);
     workspace.origin[0] = 0.01;
     workspace.origin[2] = -0.003;
     memcpy(workspace.rotation, rotation, sizeof rotation);

@@ -117,7 +117,7 @@ static uint64_t run_scene(int kind, int32_t method, uint32_t has_velocity) {
     uint64_t hash = UINT64_C(14695981039346656037);
     need(knurl_scene_create(NULL, &scene) == KNURL_OK, "scene");
     const knurl_surface_id id = fill_scene(scene, kind, method);
-    knurl_workspace_init(&workspace);
+    knurl_workspace_set_identity(&workspace);
     knurl_hip_desc_init(&hip, sizeof hip);
     hip.workspace = &workspace;
     need(knurl_scene_configure_hip(scene, 0, &hip) == KNURL_OK, "HIP");
@@ -143,7 +143,7 @@ static uint64_t run_signal(int32_t method) {
     uint64_t hash = UINT64_C(14695981039346656037);
     for (int hz = 20; hz <= 480; hz += 20) {
         knurl_wave wave;
-        need(knurl_wave_init(method, 1.0 / hz, 1.0, 1000.0, &wave) == KNURL_OK, "signal");
+        need(knurl_wave_prepare(method, 1.0 / hz, 1.0, 1000.0, &wave) == KNURL_OK, "signal");
         for (uint64_t tick = 0; tick < 2000; tick++) {
             const double value = knurl_wave_value(&wave, tick);
             hash = hash_bytes(hash, &value, sizeof value);

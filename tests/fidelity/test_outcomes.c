@@ -55,7 +55,8 @@ static study_signal bench_signal(int32_t method, double ticks, double newtons) {
     study_signal command;
     study_signal measured;
     bench_reading rest;
-    assert_int_equal(knurl_wave_init(method, ticks / BENCH_UPDATE_RATE, newtons, BENCH_UPDATE_RATE, &wave), KNURL_OK);
+    assert_int_equal(knurl_wave_prepare(method, ticks / BENCH_UPDATE_RATE, newtons, BENCH_UPDATE_RATE, &wave),
+                     KNURL_OK);
     assert_true(study_signal_of_wave(&wave, BENCH_UPDATE_RATE, &command));
     assert_true(bench_measure(&fixture, &command, &measured, &rest));
     study_signal_free(&command);

@@ -20,7 +20,7 @@ static double period_at(int i) {
 static study_signal play(int32_t method, double ticks, double amplitude, double rate) {
     knurl_wave wave;
     study_signal signal;
-    assert_int_equal(knurl_wave_init(method, ticks / rate, amplitude, rate, &wave), KNURL_OK);
+    assert_int_equal(knurl_wave_prepare(method, ticks / rate, amplitude, rate, &wave), KNURL_OK);
     assert_int_equal(study_signal_of_wave(&wave, rate, &signal), 1);
     return signal;
 }

@@ -3,7 +3,8 @@
 #ifndef KNURL_FUZZ_H
 #define KNURL_FUZZ_H
 
-#include <knurl/scene.h>
+#include <knurl/hip.h>
+#include <knurl/query.h>
 
 #include <math.h>
 #include <stddef.h>

@@ -4,6 +4,8 @@
 #define KNURL_TESTS_GLTF_BUILDER_HPP
 
 #include <knurl/gltf.h>
+#include <knurl/hip.h>
+#include <knurl/query.h>
 
 #include <cstddef>
 #include <cstdint>

@@ -257,7 +257,7 @@ knurl_result add_parts(knurl_scene *scene, const Parts &parts) {
 void configure(knurl_scene *scene) {
     knurl_workspace workspace;
     knurl_hip_desc hip;
-    knurl_workspace_init(&workspace);
+    knurl_workspace_set_identity(&workspace);
     knurl_hip_desc_init(&hip, sizeof hip);
     hip.max_force = 1e6;
     hip.protections = 0;

@@ -160,12 +160,12 @@ TEST_WITH(what_a_hip_was_told_of_its_motors_is_no_matter_to_them, NULL, end_benc
     const struct {
         double continuous;
         uint32_t without;
-    } hips[] = {{1.76, 0}, {(double)INFINITY, 0}, {0.0, KNURL_PROTECT_HEAT}};
+    } hips[] = {{1.76, 0}, {(double)INFINITY, 0}, {KNURL_DEFAULT, KNURL_PROTECT_HEAT}};
     for (size_t i = 0; i < COUNT_OF(hips); i++) {
         knurl_hip_desc hip;
         knurl_workspace workspace;
         bench_open(&b, DEPTH);
-        knurl_workspace_init(&workspace);
+        knurl_workspace_set_identity(&workspace);
         knurl_hip_desc_init(&hip, sizeof hip);
         hip.workspace = &workspace;
         hip.continuous_force = hips[i].continuous;
@@ -175,7 +175,7 @@ TEST_WITH(what_a_hip_was_told_of_its_motors_is_no_matter_to_them, NULL, end_benc
         step(2000);
         end_loop();
         b.position[1] = 0.01;
-        hip.continuous_force = 0.0;
+        hip.continuous_force = KNURL_DEFAULT;
         hip.protections = KNURL_PROTECT_ALL;
         assert_int_equal(knurl_scene_configure_hip(b.scene, 0, &hip), KNURL_OK);
         bench_create(&b);

@@ -27,8 +27,7 @@ static knurl_scene *make_scene(int committed) {
     material.stiffness = 400.0;
     surface.plane = &plane;
     surface.material = &material;
-    surface.rotation[0] = -0.70710678118654752;
-    surface.rotation[3] = 0.70710678118654752;
+    surface.normal[1] = 1.0;
     assert_int_equal(knurl_scene_create(NULL, &scene), KNURL_OK);
     assert_int_equal(knurl_scene_add_surface(scene, &surface, NULL), KNURL_OK);
     if (committed) {
@@ -314,14 +313,14 @@ TEST_WITH(the_hips_rate_must_be_the_loops_where_it_is_given, NULL, end_rig) {
 
 /* K z = 400 N/m x 20 mm = 8 N: shortened to what the device can do, or to what the HIP was configured for. */
 TEST_WITH(a_hip_takes_its_force_limit_from_its_device_unless_it_has_one, NULL, end_rig) {
-    static const double limits[][2] = {{0.0, 2.0}, {0.5, 0.5}}; /* given, expected */
+    static const double limits[][2] = {{KNURL_DEFAULT, 2.0}, {0.5, 0.5}}; /* given, expected */
     for (size_t i = 0; i < COUNT_OF(limits); i++) {
         knurl_scene *scene = make_scene(1);
         knurl_hip_desc hip;
         knurl_workspace workspace;
         knurl_tick_output output;
         knurl_hip_desc_init(&hip, sizeof hip);
-        knurl_workspace_init(&workspace);
+        knurl_workspace_set_identity(&workspace);
         hip.max_force = limits[i][0];
         hip.protections = 0; /* it jumps 9 mm into the wall */
         hip.workspace = &workspace;

@@ -130,7 +130,7 @@ TEST_WITH(what_is_told_is_never_more_than_the_device_can_play, NULL, end_bench) 
     knurl_workspace workspace;
     bench_open(&b, DEPTH);
     knurl_hip_desc_init(&hip, sizeof hip);
-    knurl_workspace_init(&workspace);
+    knurl_workspace_set_identity(&workspace);
     hip.workspace = &workspace;
     hip.max_force = 20.0;
     assert_int_equal(knurl_scene_configure_hip(b.scene, 0, &hip), KNURL_OK);

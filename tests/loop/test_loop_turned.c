@@ -39,7 +39,7 @@ static double change(void) {
 /* Half a turn about z, or back. */
 static void turn(int over, double seconds) {
     knurl_workspace to;
-    knurl_workspace_init(&to);
+    knurl_workspace_set_identity(&to);
     to.rotation[0] = to.rotation[4] = over ? -1.0 : 1.0;
     assert_int_equal(knurl_scene_set_workspace(b.scene, 0, &to, seconds), KNURL_OK);
 }
@@ -133,7 +133,7 @@ static int squeeze(double ramp_s, int pause_at) {
     surface_parts parts = surface_plane();
     bench_open(&b, -0.004);
     parts.desc.position[1] = 0.005;
-    parts.desc.rotation[0] = parts.desc.rotation[3] = 0.70710678118654752;
+    parts.desc.normal[1] = -1.0;
     parts.material.stiffness = 1000.0;
     lid = add_surface(b.scene, &parts);
     b.desc.ramp_s = ramp_s;

@@ -222,7 +222,7 @@ static knurl_result call_configure(void) {
 
 static knurl_result call_set_workspace(void) {
     knurl_workspace workspace;
-    knurl_workspace_init(&workspace);
+    knurl_workspace_set_identity(&workspace);
     workspace.origin[0] = 0.02;
     return knurl_scene_set_workspace(scene, 0, &workspace, 0.1);
 }
@@ -277,16 +277,16 @@ static knurl_result call_small_things(void) {
     knurl_wave wave;
     knurl_vibration_event event;
     memset(&grating, 0, sizeof grating);
-    knurl_workspace_init(&workspace);
+    knurl_workspace_set_identity(&workspace);
     (void)knurl_grating_check(&grating);
     (void)knurl_workspace_check(&workspace);
     (void)knurl_text_line(line, sizeof line, "a\nb");
     (void)knurl_method_name(1);
     (void)knurl_method_from_name("S2", &method);
     (void)knurl_method_from_name("S3", &method);
-    (void)knurl_wave_init(KNURL_WAVE_T3, 0.01, 1e-4, 1000.0, &wave);
-    (void)knurl_vibration_event_init(10.0, 1e-4, &event);
-    (void)knurl_velocity_init(KNURL_VELOCITY_FOAW, 1e-5, 1000.0, &velocity);
+    (void)knurl_wave_prepare(KNURL_WAVE_T3, 0.01, 1e-4, 1000.0, &wave);
+    (void)knurl_vibration_event_prepare(10.0, 1e-4, &event);
+    (void)knurl_velocity_prepare(KNURL_VELOCITY_FOAW, 1e-5, 1000.0, &velocity);
     (void)knurl_result_string(KNURL_ERROR_MEMORY);
     (void)knurl_version_string();
     (void)knurl_version_number();

@@ -121,7 +121,7 @@ static knurl_result call_frame(void) {
     knurl_workspace workspace;
     knurl_session_way way;
     memset(&way, 0, sizeof way);
-    knurl_workspace_init(&workspace);
+    knurl_workspace_set_identity(&workspace);
     knurl_session_update(session);
     (void)knurl_session_next_event(session, &event);
     knurl_session_get_state(session, &now);

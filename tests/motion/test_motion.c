@@ -8,7 +8,7 @@
 
 static knurl_velocity make_velocity(int32_t method, double resolution, double rate) {
     knurl_velocity velocity;
-    assert_int_equal(knurl_velocity_init(method, resolution, rate, &velocity), KNURL_OK);
+    assert_int_equal(knurl_velocity_prepare(method, resolution, rate, &velocity), KNURL_OK);
     return velocity;
 }
 
@@ -296,47 +296,6 @@ TEST(foaw_flickering_at_random_is_what_brute_force_says) {
     compare_with_brute_force(walk, SAMPLES, QUANTUM, 1000.0, 0);
 }
 
-/* What a new difference weighs. */
-static double share_at(double rate) {
-    return 1.0 - exp(-2.0 * acos(-1.0) * KNURL_VELOCITY_LOWPASS_HZ / rate);
-}
-
-TEST(lowpass_answers_a_start_with_its_step_response) {
-    for (size_t i = 0; i < COUNT_OF(rates); i++) {
-        knurl_velocity velocity = make_velocity(KNURL_VELOCITY_LOWPASS, 0.0, rates[i]);
-        for (int k = 0; k < 2000; k++) { /* v (1 - (1 - a)^k) */
-            const double position[3] = {1.0 + 0.2 * k / rates[i], 0.0, 1.0 - 0.1 * k / rates[i]};
-            const double rise = 1.0 - pow(1.0 - share_at(rates[i]), k);
-            double out[3] = {9.0, 9.0, 9.0};
-            knurl_velocity_update(&velocity, position, out);
-            CHECK_CLOSE(out[0], 0.2 * rise, 1e-11L);
-            CHECK_SAME(out[1], 0.0);
-            CHECK_CLOSE(out[2], -0.1 * rise, 1e-11L);
-        }
-        /* its cutoff: a time constant after the start, 1 - 1/e */
-        CHECK_CLOSE(pow(1.0 - share_at(rates[i]), rates[i] / (2.0 * acos(-1.0) * KNURL_VELOCITY_LOWPASS_HZ)), exp(-1.0),
-                    1e-12L);
-    }
-}
-
-TEST(lowpass_lags_a_gain_of_speed_by_its_time_constant) {
-    /* (1 - a)/a ticks for the filter and half a tick for the difference */
-    for (size_t i = 0; i < COUNT_OF(rates); i++) {
-        knurl_velocity velocity = make_velocity(KNURL_VELOCITY_LOWPASS, 0.0, rates[i]);
-        const double a = share_at(rates[i]);
-        const double lag = ((1.0 - a) / a + 0.5) / rates[i];
-        for (int k = 0; k < (int)rates[i]; k++) {
-            const double t = k / rates[i];
-            const double position[3] = {0.5 * t * t, 0.0, 0.0};
-            double out[3];
-            knurl_velocity_update(&velocity, position, out);
-            if (t > 0.5) {
-                CHECK_CLOSE(out[0], t - lag, 1e-9L);
-            }
-        }
-    }
-}
-
 TEST(axes_are_independent) {
     static int64_t x[3][4000];
     static int64_t behind[3][4000];
@@ -363,7 +322,7 @@ TEST(axes_are_independent) {
     }
 }
 
-static const int32_t methods[] = {KNURL_VELOCITY_DIFFERENCE, KNURL_VELOCITY_FOAW, KNURL_VELOCITY_LOWPASS};
+static const int32_t methods[] = {KNURL_VELOCITY_DIFFERENCE, KNURL_VELOCITY_FOAW};
 
 TEST(reset_makes_the_next_position_a_first_one) {
     for (size_t i = 0; i < 2 * COUNT_OF(methods); i++) {
@@ -415,11 +374,11 @@ TEST(bad_estimators_are_refused_and_nothing_is_written) {
                                     {QUANTUM, 0.5},     {QUANTUM, (double)NAN}, {QUANTUM, (double)INFINITY}};
     knurl_velocity velocity;
     memset(&velocity, 0xA5, sizeof(velocity));
-    for (size_t i = 0; i < COUNT_OF(bad) * 4; i++) {
-        CHECK_REFUSED(knurl_velocity_init((int32_t)(i % 4), bad[i / 4][0], bad[i / 4][1], &velocity),
+    for (size_t i = 0; i < COUNT_OF(bad) * 3; i++) {
+        CHECK_REFUSED(knurl_velocity_prepare((int32_t)(i % 3), bad[i / 3][0], bad[i / 3][1], &velocity),
                       KNURL_ERROR_ARGUMENT, velocity);
     }
-    CHECK_REFUSED(knurl_velocity_init(KNURL_VELOCITY_FOAW, 0.0, 1000.0, &velocity), KNURL_ERROR_ARGUMENT, velocity);
-    CHECK_REFUSED(knurl_velocity_init(4, QUANTUM, 1000.0, &velocity), KNURL_ERROR_UNKNOWN, velocity);
-    CHECK_REFUSED(knurl_velocity_init(-1, QUANTUM, 1000.0, &velocity), KNURL_ERROR_UNKNOWN, velocity);
+    CHECK_REFUSED(knurl_velocity_prepare(KNURL_VELOCITY_FOAW, 0.0, 1000.0, &velocity), KNURL_ERROR_ARGUMENT, velocity);
+    CHECK_REFUSED(knurl_velocity_prepare(3, QUANTUM, 1000.0, &velocity), KNURL_ERROR_UNKNOWN, velocity);
+    CHECK_REFUSED(knurl_velocity_prepare(-1, QUANTUM, 1000.0, &velocity), KNURL_ERROR_UNKNOWN, velocity);
 }

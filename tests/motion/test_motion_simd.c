@@ -6,7 +6,6 @@
 /* velocity.c with KNURL_NO_SIMD and renamed (CMakeLists.txt) */
 knurl_result plain_init(int32_t method, double resolution, double update_rate_hz, knurl_velocity *velocity);
 void plain_update(knurl_velocity *velocity, const double position[3], double out[3]);
-void plain_reset(knurl_velocity *velocity);
 
 #define QUANTUM 0.055e-3
 #define TICKS   120000
@@ -51,7 +50,7 @@ static void compare(next_position *next, uint64_t seed, double rate, uint32_t av
     knurl_velocity library;
     knurl_velocity plain;
     double position[3] = {0.0, 0.0, 0.0};
-    assert_int_equal(knurl_velocity_init(KNURL_VELOCITY_FOAW, QUANTUM, rate, &library), KNURL_OK);
+    assert_int_equal(knurl_velocity_prepare(KNURL_VELOCITY_FOAW, QUANTUM, rate, &library), KNURL_OK);
     assert_int_equal(plain_init(KNURL_VELOCITY_FOAW, QUANTUM, rate, &plain), KNURL_OK);
     knurl_velocity_get_state(&library)->avx = avx;
     for (int k = 0; k < TICKS; k++) {
@@ -59,7 +58,7 @@ static void compare(next_position *next, uint64_t seed, double rate, uint32_t av
         double expected[3];
         if (random_integer(&seed, 0, 99) == 0) {
             knurl_velocity_reset(&library);
-            plain_reset(&plain);
+            knurl_velocity_reset(&plain);
         }
         for (size_t axis = 0; axis < 3; axis++) {
             position[axis] = next(position[axis], &seed);
@@ -98,7 +97,7 @@ static void compare_paths(next_position *next, uint64_t seed) {
 
 TEST(init_chooses_avx_where_the_machine_has_it) {
     knurl_velocity velocity;
-    assert_int_equal(knurl_velocity_init(KNURL_VELOCITY_FOAW, QUANTUM, 1000.0, &velocity), KNURL_OK);
+    assert_int_equal(knurl_velocity_prepare(KNURL_VELOCITY_FOAW, QUANTUM, 1000.0, &velocity), KNURL_OK);
     assert_int_equal(knurl_velocity_get_state(&velocity)->avx, has_avx());
     assert_int_equal(plain_init(KNURL_VELOCITY_FOAW, QUANTUM, 1000.0, &velocity), KNURL_OK);
     assert_int_equal(knurl_velocity_get_state(&velocity)->avx, 0);

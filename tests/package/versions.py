@@ -53,10 +53,10 @@ def make_later(folder):
     edit(os.path.join(folder, "CMakeLists.txt"), (r"add_subdirectory\((?!sdk\))[^)]*\)", ""))
     headers = os.path.join(folder, "sdk/include/knurl")
     growing = r"(typedef struct (knurl_\w+) \{\n    uint32_t struct_size;(?:(?!\n\}).)*)\n\} \2;"
-    for name in ("scene.h", "loop.h", "device.h", "device_functions.h", "fake.h", "stroke.h",
+    for name in ("scene.h", "hip.h", "query.h", "loop.h", "device.h", "device_functions.h", "fake.h", "stroke.h",
                  "contact.h", "gltf.h", "audio.h"):
         edit(os.path.join(headers, name), ("(?s)" + growing, r"\1\n    double later;\n} \2;"))
-    edit(os.path.join(headers, "scene.h"),
+    edit(os.path.join(headers, "hip.h"),
          (r"uint32_t reserved\[9\];(?=[^}]*\} knurl_tick_input;)", "uint32_t later; uint32_t reserved[8];"),
          (r"uint64_t reserved\[6\];(?=[^}]*\} knurl_tick_output;)", "uint64_t later; uint64_t reserved[5];"))
     edit(os.path.join(headers, "base.h"), (r"(VERSION_PATCH) \d+", r"\1 99"),

@@ -14,7 +14,7 @@ static knurl_scene *wall(uint32_t without) {
     knurl_scene *scene = empty_scene(1);
     (void)add_surface(scene, &parts);
     knurl_hip_desc_init(&hip, sizeof hip);
-    knurl_workspace_init(&workspace);
+    knurl_workspace_set_identity(&workspace);
     hip.resolution = 0.0;
     hip.protections = KNURL_PROTECT_ALL & ~without;
     hip.workspace = &workspace;

@@ -250,7 +250,7 @@ TEST(a_surface_that_slides_under_a_hip_at_rest_is_kept_step_with) {
 static void configure_counted(knurl_scene *scene) {
     knurl_hip_desc desc;
     knurl_workspace workspace;
-    knurl_workspace_init(&workspace);
+    knurl_workspace_set_identity(&workspace);
     knurl_hip_desc_init(&desc, sizeof desc);
     desc.resolution = COUNT;
     desc.max_force = 1e6;

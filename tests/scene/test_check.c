@@ -26,7 +26,7 @@ static setting plain(void) {
     setting s;
     s.parts = surface_plane();
     s.parts.desc.name = "brick";
-    knurl_workspace_init(&s.workspace);
+    knurl_workspace_set_identity(&s.workspace);
     s.hip = device(NULL);
     return s;
 }
@@ -89,7 +89,7 @@ TEST(stability_is_the_bound_of_a_delayed_wall_and_says_by_how_much) {
     s.parts.material.damping = 0.0;
     s.hip.update_rate_hz = 2000.0;
     CHECK_CLOSE(check_of(&s).stiffness_limit, 4000.0, 1e-9);
-    s.hip.update_rate_hz = 0.0;
+    s.hip.update_rate_hz = KNURL_DEFAULT;
     s.hip.delay = 0.0;
     check = check_of(&s);
     CHECK_CLOSE(check.stiffness_limit, 6000.0, 1e-9);

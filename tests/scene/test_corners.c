@@ -49,7 +49,7 @@ static surface_parts wall_plane(void) {
     surface_parts parts = surface_plane();
     parts.plane.half_extents[0] = parts.plane.half_extents[1] = 0.05;
     parts.desc.position[2] = 0.05;
-    parts.desc.rotation[1] = parts.desc.rotation[3] = sqrt(0.5); /* z becomes x */
+    parts.desc.normal[0] = 1.0; /* z becomes x */
     return parts;
 }
 

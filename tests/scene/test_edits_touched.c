@@ -94,9 +94,10 @@ static void change_in_mid_event(double new_fs, double new_amplitude) {
     const double velocity[3] = {0.05, 0.0, 0.0};
     set_grating(&parts, KNURL_METHOD_S2, 1000.0, 0.0, 0.0005);
     knurl_scene *scene = scene_of(&parts);
-    assert_int_equal(knurl_vibration_event_init(20.0, 0.0005, &first), KNURL_OK);
+    assert_int_equal(knurl_vibration_event_prepare(20.0, 0.0005, &first), KNURL_OK);
     assert_int_equal(
-        knurl_vibration_event_init(1000.0 / (0.05 * (new_fs > 0.0 ? new_fs : 1000.0)), new_amplitude, &next), KNURL_OK);
+        knurl_vibration_event_prepare(1000.0 / (0.05 * (new_fs > 0.0 ? new_fs : 1000.0)), new_amplitude, &next),
+        KNURL_OK);
     for (int k = 0; k < 60; k++) {
         const knurl_tick_output out = tick_moving(scene, at, velocity);
         const int old = k < 40; /* the change comes within the second event */

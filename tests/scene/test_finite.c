@@ -124,7 +124,7 @@ static void add_wild_surface(knurl_scene *scene) {
 
 static knurl_workspace wild_workspace(void) {
     knurl_workspace w;
-    knurl_workspace_init(&w);
+    knurl_workspace_set_identity(&w);
     wild_point(8.0, w.origin);
     w.scale = one_in(2) ? 1.0 : size_of(-9.0, 9.0);
     if (one_in(3)) {
@@ -271,7 +271,7 @@ TEST(coordinates_are_taken_up_to_a_range_and_refused_beyond) {
         const double there[3] = {0.0, far, 0.0}, here[3] = {0.0, 0.0, 0.1};
         const knurl_result expected = i < COUNT_OF(beyond) ? KNURL_ERROR_ARGUMENT : KNURL_OK;
         knurl_workspace w;
-        knurl_workspace_init(&w);
+        knurl_workspace_set_identity(&w);
         w.origin[1] = far;
         surface_parts placed = surface_plane(), wide = surface_plane(), axis = surface_plane();
         surface_parts mesh = surface_mesh(&s);

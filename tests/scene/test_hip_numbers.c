@@ -1,8 +1,8 @@
-/* The numbers of a HIP: each in the range that scene.h states, or it is not configured; at every end of the ranges the
+/* The numbers of a HIP: each in the range that hip.h states, or it is not configured; at every end of the ranges the
  * motors' limit holds. SPDX-License-Identifier: MIT */
 #include "support/scenes.h"
 
-enum { ZERO = 1, NEGATIVE = 2, ENDLESS = 4 };
+enum { ZERO = 1, ENDLESS = 2 };
 
 static const struct number {
     const char *name;
@@ -12,15 +12,15 @@ static const struct number {
     const char *range;
 } numbers[] = {
 #define NUMBER(field) #field, offsetof(knurl_hip_desc, field)
-    {NUMBER(update_rate_hz), 100.0, 10000.0, ZERO, "0 or 100 to 10000 Hz"},
-    {NUMBER(resolution), 1e-9, 0.01, ZERO | NEGATIVE, "a negative number or 0 or 1e-09 to 0.01 m"},
-    {NUMBER(max_force), 0.01, 1e6, ZERO, "0 or 0.01 to 1000000 N"},
-    {NUMBER(continuous_force), 0.01, 1000.0, ZERO | ENDLESS, "INFINITY or 0 or 0.01 to 1000 N"},
-    {NUMBER(heat_time), 0.001, 1e6, ZERO, "0 or 0.001 to 1000000 s"},
-    {NUMBER(viscous), 0.0, 1000.0, NEGATIVE, "a negative number or 0 to 1000 N s/m"},
-    {NUMBER(delay), 0.0, 16.0, NEGATIVE, "a negative number or 0 to 16 ticks"},
-    {NUMBER(max_stiffness), 1.0, 1e9, ZERO | ENDLESS, "INFINITY or 0 or 1 to 1000000000 N/m"},
-    {NUMBER(slew_rate), 0.01, 1e9, ZERO | ENDLESS, "INFINITY or 0 or 0.01 to 1000000000 N/s"},
+    {NUMBER(update_rate_hz), 100.0, 10000.0, 0, "KNURL_DEFAULT (-1) or 100 to 10000 Hz"},
+    {NUMBER(resolution), 1e-9, 0.01, ZERO, "KNURL_DEFAULT (-1) or 0 or 1e-09 to 0.01 m"},
+    {NUMBER(max_force), 0.01, 1e6, 0, "KNURL_DEFAULT (-1) or 0.01 to 1000000 N"},
+    {NUMBER(continuous_force), 0.01, 1000.0, ENDLESS, "KNURL_DEFAULT (-1) or INFINITY or 0.01 to 1000 N"},
+    {NUMBER(heat_time), 0.001, 1e6, 0, "KNURL_DEFAULT (-1) or 0.001 to 1000000 s"},
+    {NUMBER(viscous), 0.0, 1000.0, 0, "KNURL_DEFAULT (-1) or 0 to 1000 N s/m"},
+    {NUMBER(delay), 0.0, 16.0, 0, "KNURL_DEFAULT (-1) or 0 to 16 ticks"},
+    {NUMBER(max_stiffness), 1.0, 1e9, ENDLESS, "KNURL_DEFAULT (-1) or INFINITY or 1 to 1000000000 N/m"},
+    {NUMBER(slew_rate), 0.01, 1e9, ENDLESS, "KNURL_DEFAULT (-1) or INFINITY or 0.01 to 1000000000 N/s"},
 };
 
 static knurl_result configure(knurl_scene *scene, const struct number *number, double value) {
@@ -40,14 +40,15 @@ TEST(every_number_of_a_hip_is_in_its_range_or_the_hip_is_as_it_was) {
             int taken;
         } values[] = {{n->least, 1},
                       {n->most, 1},
-                      {n->least * 0.999 - 1e-12, n->least == 0.0 && n->or_else & NEGATIVE},
+                      {n->least * 0.999 - 1e-12, 0},
                       {n->most * 1.001, 0},
                       {5e-324, n->least == 0.0},
                       {1e300, 0},
                       {(double)NAN, 0},
                       {0.0, n->least == 0.0 || n->or_else & ZERO},
-                      {-1.0, n->or_else & NEGATIVE},
-                      {-(double)INFINITY, n->or_else & NEGATIVE},
+                      {KNURL_DEFAULT, 1},
+                      {-2.0, 0},
+                      {-(double)INFINITY, 0},
                       {(double)INFINITY, n->or_else & ENDLESS}};
         for (size_t k = 0; k < COUNT_OF(values); k++) {
             if (values[k].taken) {
@@ -62,8 +63,8 @@ TEST(every_number_of_a_hip_is_in_its_range_or_the_hip_is_as_it_was) {
     }
     assert_int_equal(configure(scene, &numbers[3], 5e-324), KNURL_ERROR_ARGUMENT);
     assert_string_equal(knurl_error_message(),
-                        "knurl_hip_desc.continuous_force: expected INFINITY or 0 or 0.01 to 1000 N, "
-                        "found 4.94066e-324");
+                        "knurl_hip_desc.continuous_force: expected KNURL_DEFAULT (-1) or INFINITY or 0.01 to "
+                        "1000 N, found 4.94066e-324");
     knurl_scene_destroy(scene);
 }
 

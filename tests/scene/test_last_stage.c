@@ -9,7 +9,7 @@ static const knurl_hip_facts facts = {1000.0, 0.0, 3.3, 0.88, 60.0, 0.5, 1.0, 10
 static knurl_last_stage ready(uint32_t protections, const double latest[3]) {
     knurl_last_stage stage;
     memset(&stage, 0, sizeof stage);
-    knurl_last_stage_init(&stage, protections, 0.0, &facts);
+    knurl_last_stage_init(&stage, protections, KNURL_DEFAULT, &facts);
     memcpy(stage.force, latest, sizeof stage.force);
     return stage;
 }

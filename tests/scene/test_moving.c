@@ -48,7 +48,7 @@ TEST(sliding_under_a_resting_hip_plays_events) {
     set_grating(&parts, KNURL_METHOD_S2, 1000.0, 0.0, 0.0005);
     knurl_scene *scene = stood_on(&parts, &id);
     const pose end = at_height(0.02, 0.0, 0.0);
-    assert_int_equal(knurl_vibration_event_init(10.0, 0.0005, &event), KNURL_OK);
+    assert_int_equal(knurl_vibration_event_prepare(10.0, 0.0005, &event), KNURL_OK);
     move_to(scene, id, &end, 0.2);
     for (int k = 1; k < 200; k++) {
         const knurl_tick_output out = stand_at(scene, 0.0, 0.0, -0.001);

@@ -112,7 +112,7 @@ TEST(hips_of_different_rates_see_the_same_way_in_seconds) {
     const pose up = at_height(0.0, 0.0, 0.004);
     const knurl_tick_input input = {{0.0, 0.0, -0.001}, {0.0, 0.0, 0.0}, 1, 0, 0.0, 0, {0}};
     knurl_tick_output out[2];
-    knurl_workspace_init(&workspace);
+    knurl_workspace_set_identity(&workspace);
     knurl_hip_desc_init(&hip, sizeof hip);
     hip.workspace = &workspace;
     hip.max_force = 100.0;
@@ -148,7 +148,7 @@ TEST(way_at_4_khz_takes_its_seconds) {
     knurl_workspace workspace;
     knurl_hip_desc hip;
     const pose up = at_height(0.0, 0.0, 0.004);
-    knurl_workspace_init(&workspace);
+    knurl_workspace_set_identity(&workspace);
     knurl_hip_desc_init(&hip, sizeof hip);
     hip.workspace = &workspace;
     hip.max_force = 100.0;

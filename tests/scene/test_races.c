@@ -78,7 +78,7 @@ static void configure_places(void *user) {
     static uint32_t number;
     knurl_workspace w;
     knurl_hip_desc desc;
-    knurl_workspace_init(&w);
+    knurl_workspace_set_identity(&w);
     w.origin[0] = w.origin[1] = w.origin[2] = (double)(number++ % 8);
     w.scale = 1.0 + w.origin[0];
     knurl_hip_desc_init(&desc, sizeof desc);

@@ -181,7 +181,7 @@ TEST(info_tells_what_a_plane_came_to_be) {
     parts.desc.name = "wall";
     parts.desc.double_sided = 1;
     parts.desc.position[2] = 0.5;
-    parts.desc.rotation[0] = parts.desc.rotation[3] = sqrt(0.5); /* a quarter about x: the front looks to -y */
+    parts.desc.normal[1] = -1.0; /* a quarter about x: the front looks to -y */
     parts.plane.half_extents[0] = 0.02;
     parts.plane.half_extents[1] = 0.03;
     parts.material.orientation = asin(1.0); /* the grating's x along the plane's y, the scene's z */

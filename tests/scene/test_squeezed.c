@@ -39,7 +39,7 @@ static knurl_surface_id add_kind(knurl_scene *scene, int kind, const pose *at) {
 static void configure_protected(knurl_scene *scene) {
     knurl_hip_desc desc;
     knurl_workspace workspace;
-    knurl_workspace_init(&workspace);
+    knurl_workspace_set_identity(&workspace);
     knurl_hip_desc_init(&desc, sizeof desc);
     desc.workspace = &workspace;
     desc.resolution = 0.0;

@@ -85,7 +85,7 @@ static void compare_with_events(double rate, double fs, const double velocity[3]
     knurl_hip_desc hip;
     knurl_workspace workspace;
     knurl_vibration_event event;
-    knurl_workspace_init(&workspace);
+    knurl_workspace_set_identity(&workspace);
     knurl_hip_desc_init(&hip, sizeof hip);
     hip.update_rate_hz = rate;
     hip.max_force = 1e3;
@@ -94,7 +94,7 @@ static void compare_with_events(double rate, double fs, const double velocity[3]
     assert_int_equal(knurl_scene_configure_hip(scene, 0, &hip), KNURL_OK);
     (void)add_surface(scene, &parts);
     assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
-    assert_int_equal(knurl_vibration_event_init(rate / frequency, A, &event), KNURL_OK);
+    assert_int_equal(knurl_vibration_event_prepare(rate / frequency, A, &event), KNURL_OK);
     for (int32_t k = 0; k < 5 * event.length; k++) {
         const double hip_at[3] = {0.01 * sin(k), 0.02 * cos(k), -0.002}; /* where it is makes no difference */
         const knurl_tick_output out = tick_moving(scene, hip_at, velocity);

@@ -1,5 +1,6 @@
 /* The limit of what contact looks at in a tick: where it is met, it is told and counted, and a HIP that is held is held
  * on. SPDX-License-Identifier: MIT */
+#include "scene/scene.h"
 #include "support/geometry.h"
 #include "support/scenes.h"
 
@@ -51,14 +52,14 @@ static knurl_scene *scene_within(surface_parts *parts, uint32_t max_visits) {
     knurl_hip_desc desc;
     knurl_workspace workspace;
     knurl_scene *scene = scene_of(parts);
-    knurl_workspace_init(&workspace);
+    knurl_workspace_set_identity(&workspace);
     knurl_hip_desc_init(&desc, sizeof desc);
     desc.resolution = 0.0;
     desc.max_force = 1e6;
     desc.protections = 0;
     desc.workspace = &workspace;
-    desc.max_visits = max_visits;
     assert_int_equal(knurl_scene_configure_hip(scene, 0, &desc), KNURL_OK);
+    scene->hips[0].contacts.max_visits = max_visits;
     return scene;
 }
 
@@ -70,7 +71,7 @@ static uint64_t count_limits(const knurl_scene *scene) {
 
 /* All triangles are as near to its middle: 20,480 of them, whose crests reach as far as it is wide. */
 TEST(crests_that_reach_through_a_mesh_meet_the_limit_which_is_told_and_counted) {
-    const uint32_t limits[2] = {0, UINT32_MAX};
+    const uint32_t limits[2] = {KNURL_VISITS_MAX, UINT32_MAX};
     shape s = shape_sphere(0.01, 5);
     surface_parts parts = surface_shape(&s, 0.02);
     for (int i = 0; i < 2; i++) {
@@ -117,7 +118,7 @@ TEST(a_hip_that_is_held_is_held_on_when_the_visits_are_used_up) {
 TEST(a_contact_begins_although_the_visits_are_used_up) {
     shape s = globe(96, 48);
     surface_parts parts = surface_shape(&s, 0.0);
-    knurl_scene *scene = scene_within(&parts, 0);
+    knurl_scene *scene = scene_within(&parts, KNURL_VISITS_MAX);
     for (int k = 0; k < 20; k++) {
         const double z = RADIUS + 0.0002 - 5.5e-5 * k;
         const knurl_tick_output out = tick_at(scene, 0.0, 5.5e-5, z);
@@ -152,7 +153,7 @@ TEST(a_pole_of_any_number_of_triangles_holds_a_hip_that_is_pressed_onto_it) {
     for (int i = 0; i < 9; i++) {
         shape s = globe(fans[i / 3], 16);
         surface_parts parts = surface_shape(&s, 0.0001);
-        knurl_scene *scene = scene_within(&parts, 0);
+        knurl_scene *scene = scene_within(&parts, KNURL_VISITS_MAX);
         check_press(scene, 0.0, steps[i % 3], 0.001);
         knurl_scene_destroy(scene);
         shape_free(&s);
@@ -210,11 +211,11 @@ static int check_only_plane_is_touched(const shape *below, uint32_t max_visits) 
     const knurl_surface_id touched = add_surface(scene, &plane);
     sphere.desc.position[2] = -0.0008 - RADIUS;
     (void)add_surface(scene, &sphere);
-    knurl_workspace_init(&workspace);
+    knurl_workspace_set_identity(&workspace);
     knurl_hip_desc_init(&desc, sizeof desc);
     desc.workspace = &workspace;
-    desc.max_visits = max_visits;
     assert_int_equal(knurl_scene_configure_hip(scene, 0, &desc), KNURL_OK);
+    scene->hips[0].contacts.max_visits = max_visits;
     assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
     (void)tick_at(scene, 0.0, 0.0, 0.0005);
     const knurl_tick_output out = tick_at(scene, 0.0, 0.0, -0.0005);

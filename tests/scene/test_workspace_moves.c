@@ -14,7 +14,7 @@ static knurl_scene *wall(void) {
 
 static knurl_workspace at(double x, double y, double z) {
     knurl_workspace workspace;
-    knurl_workspace_init(&workspace);
+    knurl_workspace_set_identity(&workspace);
     workspace.origin[0] = x;
     workspace.origin[1] = y;
     workspace.origin[2] = z;

@@ -32,7 +32,7 @@ static knurl_scene *make_scene(const stroke_case *c, const knurl_device *device,
     knurl_surface_desc_init(&desc, sizeof desc);
     knurl_material_desc_init(&material, sizeof material);
     knurl_hip_desc_init(&hip, sizeof hip);
-    knurl_workspace_init(&workspace);
+    knurl_workspace_set_identity(&workspace);
     plane.half_extents[0] = plane.half_extents[1] = 0.05;
     material.method = c->method;
     material.stiffness = c->stiffness;
@@ -40,8 +40,7 @@ static knurl_scene *make_scene(const stroke_case *c, const knurl_device *device,
     material.amplitude = 0.0002;
     desc.plane = &plane;
     desc.material = &material;
-    desc.rotation[0] = -0.70710678118654752; /* its normal is the device's y */
-    desc.rotation[3] = 0.70710678118654752;
+    desc.normal[1] = 1.0;
     hip.workspace = &workspace; /* and what a loop would tell it */
     hip.resolution = info.resolution;
     hip.max_force = info.max_force;

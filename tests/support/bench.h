@@ -97,11 +97,10 @@ static inline void bench_open(bench *b, double depth) {
     b->clock.now_ns = bench_now;
     b->clock.sleep_until_ns = bench_sleep;
     b->clock.user = b;
-    wall.desc.rotation[0] = -0.70710678118654752;
-    wall.desc.rotation[3] = 0.70710678118654752;
+    wall.desc.normal[1] = 1.0;
     b->scene = empty_scene(1);
     (void)add_surface(b->scene, &wall);
-    knurl_workspace_init(&workspace);
+    knurl_workspace_set_identity(&workspace);
     knurl_hip_desc_init(&hip, sizeof hip);
     hip.workspace = &workspace;
     assert_int_equal(knurl_scene_configure_hip(b->scene, 0, &hip), KNURL_OK);

@@ -5,7 +5,8 @@
 
 #include "support/shapes.h"
 
-#include <knurl/scene.h>
+#include <knurl/hip.h>
+#include <knurl/query.h>
 
 /** A surface with everything it points to. Its pointers are set by surface_ready(), so that it may be copied. */
 typedef struct surface_parts {
@@ -71,7 +72,7 @@ static inline knurl_scene *empty_scene(uint32_t hips) {
 static inline void configure_plainly(knurl_scene *scene, uint32_t hip) {
     knurl_hip_desc desc;
     knurl_workspace workspace;
-    knurl_workspace_init(&workspace);
+    knurl_workspace_set_identity(&workspace);
     knurl_hip_desc_init(&desc, sizeof desc);
     desc.resolution = 0.0;
     desc.max_force = 1e6;

@@ -9,20 +9,20 @@ static const double rates[] = {1000.0, 2000.0, 3000.0, 10000.0};
 
 static knurl_wave make_wave(int32_t method, double ticks, double amplitude, double rate) {
     knurl_wave wave;
-    assert_int_equal(knurl_wave_init(method, ticks / rate, amplitude, rate, &wave), KNURL_OK);
+    assert_int_equal(knurl_wave_prepare(method, ticks / rate, amplitude, rate, &wave), KNURL_OK);
     return wave;
 }
 
 static knurl_vibration_event make_event(double ticks, double amplitude) {
     knurl_vibration_event event;
-    assert_int_equal(knurl_vibration_event_init(ticks, amplitude, &event), KNURL_OK);
+    assert_int_equal(knurl_vibration_event_prepare(ticks, amplitude, &event), KNURL_OK);
     return event;
 }
 
 /* The T3 event of a period that is given in seconds. */
 static knurl_vibration_event event_of(double period_s, double rate) {
     knurl_wave wave;
-    assert_int_equal(knurl_wave_init(KNURL_WAVE_T3, period_s, 1.0, rate, &wave), KNURL_OK);
+    assert_int_equal(knurl_wave_prepare(KNURL_WAVE_T3, period_s, 1.0, rate, &wave), KNURL_OK);
     assert_int_equal(wave.part_count, 1);
     return wave.parts[0];
 }
@@ -173,7 +173,7 @@ TEST(t1_at_rational_periods_follows_exact_arithmetic) {
 TEST(t1_at_whole_frequencies_is_exact_for_a_second) {
     for (uint64_t f = 20; f <= 500; f++) { /* 30 Hz goes wrong at ticks 250, 450, 500, ... in plain doubles */
         knurl_wave wave;
-        assert_int_equal(knurl_wave_init(KNURL_WAVE_T1, 1.0 / (double)f, 1.0, 1000.0, &wave), KNURL_OK);
+        assert_int_equal(knurl_wave_prepare(KNURL_WAVE_T1, 1.0 / (double)f, 1.0, 1000.0, &wave), KNURL_OK);
         for (uint64_t k = 0; k < 1000; k++) {
             CHECK_SAME(knurl_wave_value(&wave, k), paper_square(k, 1000, f));
         }
@@ -320,9 +320,9 @@ TEST(an_event_has_no_height_outside_its_ticks) {
 TEST(the_ends_of_the_ranges_are_accepted) {
     knurl_wave wave;
     for (int32_t method = KNURL_WAVE_T1; method <= KNURL_WAVE_T3; method++) {
-        assert_int_equal(knurl_wave_init(method, 10.0, 0.0, 1.0, &wave), KNURL_OK);
+        assert_int_equal(knurl_wave_prepare(method, 10.0, 0.0, 1.0, &wave), KNURL_OK);
         CHECK_SAME(knurl_wave_value(&wave, 3), 0.0);
-        assert_int_equal(knurl_wave_init(method, 10.0, 1.0, 100000.0, &wave), KNURL_OK);
+        assert_int_equal(knurl_wave_prepare(method, 10.0, 1.0, 100000.0, &wave), KNURL_OK);
         CHECK_SAME(knurl_wave_value(&wave, 499999), 1.0);
         CHECK_SAME(knurl_wave_value(&wave, 500000), -1.0);
         CHECK_SAME(knurl_wave_value(&wave, 1000000), 1.0);
@@ -350,12 +350,12 @@ TEST(bad_waves_are_refused_and_nothing_is_written) {
     memset(&wave, 0xA5, sizeof(wave));
     for (size_t i = 0; i < COUNT_OF(bad) * 3; i++) {
         const double *b = bad[i / 3];
-        CHECK_REFUSED(knurl_wave_init((int32_t)(i % 3) + KNURL_WAVE_T1, b[0], b[1], b[2], &wave), KNURL_ERROR_ARGUMENT,
-                      wave);
+        CHECK_REFUSED(knurl_wave_prepare((int32_t)(i % 3) + KNURL_WAVE_T1, b[0], b[1], b[2], &wave),
+                      KNURL_ERROR_ARGUMENT, wave);
     }
-    CHECK_REFUSED(knurl_wave_init(0, 0.003, 1.0, 1000.0, &wave), KNURL_ERROR_UNKNOWN, wave);
-    CHECK_REFUSED(knurl_wave_init(4, 0.003, 1.0, 1000.0, &wave), KNURL_ERROR_UNKNOWN, wave);
-    CHECK_REFUSED(knurl_wave_init(-1, 0.003, 1.0, 1000.0, &wave), KNURL_ERROR_UNKNOWN, wave);
+    CHECK_REFUSED(knurl_wave_prepare(0, 0.003, 1.0, 1000.0, &wave), KNURL_ERROR_UNKNOWN, wave);
+    CHECK_REFUSED(knurl_wave_prepare(4, 0.003, 1.0, 1000.0, &wave), KNURL_ERROR_UNKNOWN, wave);
+    CHECK_REFUSED(knurl_wave_prepare(-1, 0.003, 1.0, 1000.0, &wave), KNURL_ERROR_UNKNOWN, wave);
 }
 
 TEST(bad_events_are_refused_and_nothing_is_written) {
@@ -364,6 +364,6 @@ TEST(bad_events_are_refused_and_nothing_is_written) {
     knurl_vibration_event event;
     memset(&event, 0xA5, sizeof(event));
     for (size_t i = 0; i < COUNT_OF(bad); i++) {
-        CHECK_REFUSED(knurl_vibration_event_init(bad[i][0], bad[i][1], &event), KNURL_ERROR_ARGUMENT, event);
+        CHECK_REFUSED(knurl_vibration_event_prepare(bad[i][0], bad[i][1], &event), KNURL_ERROR_ARGUMENT, event);
     }
 }

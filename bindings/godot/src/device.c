@@ -68,7 +68,7 @@ static knurl_result place(const device *d, knurl_workspace *to) {
     if (!node_pose(d->base.object, &at)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "expected a transform with axes, found one that is scaled to nothing");
     }
-    knurl_workspace_init(to);
+    knurl_workspace_set_identity(to);
     memcpy(to->origin, at.position, sizeof at.position);
     memcpy(to->rotation, at.rotation, sizeof at.rotation);
     to->scale = d->workspace_scale;

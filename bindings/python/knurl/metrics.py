@@ -41,7 +41,7 @@ def wave(method: str, period: float, amplitude: float = 1.0, rate: float = 1000.
     if method not in _METHODS:
         raise ValueError(f"method: expected T1, T2 or T3, found {method!r}")
     made = ffi.new("knurl_wave *")
-    check(lib.knurl_wave_init(getattr(lib, _METHODS[method]), period, amplitude, rate, made))
+    check(lib.knurl_wave_prepare(getattr(lib, _METHODS[method]), period, amplitude, rate, made))
     count = _actual_period(made) if ticks is None else ticks
     if ticks is None and count == 0:
         raise ValueError(f"period: no whole number of periods of {period} s within {_LONGEST} ticks")

@@ -88,7 +88,8 @@ class Scene:
 
     def add_plane(self, half_extents: ArrayLike = (0.05, 0.05), material: Optional[Material] = None,
                   **pose: Any) -> Surface:
-        """A rectangle whose front looks along its z. pose: name, position, rotation, axis, double_sided."""
+        """A rectangle whose front looks along its z. pose: name, position, rotation or
+        normal, axis, double_sided."""
         plane = described("knurl_plane_desc")
         plane.half_extents = _tuple_of(half_extents, 2, "half_extents")
         return self._add("plane", plane, material, **pose)
@@ -113,13 +114,15 @@ class Scene:
         return self._add("mesh", mesh, material, **pose)
 
     def _add(self, kind: str, shape: Any, material: Optional[Material], name: str = "", position: ArrayLike = (0, 0, 0),
-             rotation: ArrayLike = (0, 0, 0, 1), axis: ArrayLike = (0, 0, 0), double_sided: bool = False) -> Surface:
+             rotation: ArrayLike = (0, 0, 0, 1), normal: ArrayLike = (0, 0, 0), axis: ArrayLike = (0, 0, 0),
+             double_sided: bool = False) -> Surface:
         desc = described("knurl_surface_desc")
         text, felt = ffi.new("char[]", name.encode()), (material or Material())._desc()
         desc.name, desc.material, desc.double_sided = text, felt, double_sided
         setattr(desc, kind, shape)
         desc.position = _tuple_of(position, 3, "position")
         desc.rotation = _tuple_of(rotation, 4, "rotation")
+        desc.normal = _tuple_of(normal, 3, "normal")
         desc.axis = _tuple_of(axis, 3, "axis")
         surface = ffi.new("knurl_surface_id *")
         check(lib.knurl_scene_add_surface(self.handle, desc, surface))

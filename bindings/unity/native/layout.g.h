@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "b80a5038959dc068"
+#define KNURL_UNITY_INTERFACE "f57ca69f8ab05789"
 
 /** Everything mirrored, where C# expects it: STRUCT(type, bytes), FIELD(type, field, its name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
@@ -12,6 +12,14 @@
     FIELD(knurl_allocator, allocate, "allocate", 0, 8) \
     FIELD(knurl_allocator, release, "release", 8, 8) \
     FIELD(knurl_allocator, user, "user", 16, 8) \
+    STRUCT(knurl_velocity, 11264) \
+    FIELD(knurl_velocity, alignment, "alignment", 0, 8) \
+    FIELD(knurl_velocity, state, "state", 8, 11256) \
+    STRUCT(knurl_workspace, 128) \
+    FIELD(knurl_workspace, origin, "origin", 0, 24) \
+    FIELD(knurl_workspace, rotation, "rotation", 24, 72) \
+    FIELD(knurl_workspace, scale, "scale", 96, 8) \
+    FIELD(knurl_workspace, reserved, "reserved", 104, 24) \
     STRUCT(knurl_plane_desc, 24) \
     FIELD(knurl_plane_desc, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_plane_desc, reserved, "reserved", 4, 4) \
@@ -68,14 +76,6 @@
     FIELD(knurl_grating_output, above_nyquist, "above_nyquist", 32, 4) \
     FIELD(knurl_grating_output, turned, "turned", 36, 4) \
     FIELD(knurl_grating_output, reserved, "reserved", 40, 8) \
-    STRUCT(knurl_velocity, 11264) \
-    FIELD(knurl_velocity, alignment, "alignment", 0, 8) \
-    FIELD(knurl_velocity, state, "state", 8, 11256) \
-    STRUCT(knurl_workspace, 128) \
-    FIELD(knurl_workspace, origin, "origin", 0, 24) \
-    FIELD(knurl_workspace, rotation, "rotation", 24, 72) \
-    FIELD(knurl_workspace, scale, "scale", 96, 8) \
-    FIELD(knurl_workspace, reserved, "reserved", 104, 24) \
     STRUCT(knurl_material_desc, 64) \
     FIELD(knurl_material_desc, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_material_desc, method, "method", 4, 4) \
@@ -85,7 +85,7 @@
     FIELD(knurl_material_desc, damping, "damping", 40, 8) \
     FIELD(knurl_material_desc, friction, "friction", 48, 8) \
     FIELD(knurl_material_desc, orientation, "orientation", 56, 8) \
-    STRUCT(knurl_surface_desc, 128) \
+    STRUCT(knurl_surface_desc, 152) \
     FIELD(knurl_surface_desc, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_surface_desc, double_sided, "double_sided", 4, 4) \
     FIELD(knurl_surface_desc, name, "name", 8, 8) \
@@ -94,55 +94,30 @@
     FIELD(knurl_surface_desc, material, "material", 32, 8) \
     FIELD(knurl_surface_desc, position, "position", 40, 24) \
     FIELD(knurl_surface_desc, rotation, "rotation", 64, 32) \
-    FIELD(knurl_surface_desc, axis, "axis", 96, 24) \
-    FIELD(knurl_surface_desc, shape_of, "shape_of", 120, 8) \
-    STRUCT(knurl_hip_desc, 104) \
-    FIELD(knurl_hip_desc, struct_size, "struct_size", 0, 4) \
-    FIELD(knurl_hip_desc, velocity_method, "velocity_method", 4, 4) \
-    FIELD(knurl_hip_desc, update_rate_hz, "update_rate_hz", 8, 8) \
-    FIELD(knurl_hip_desc, resolution, "resolution", 16, 8) \
-    FIELD(knurl_hip_desc, max_force, "max_force", 24, 8) \
-    FIELD(knurl_hip_desc, workspace, "workspace", 32, 8) \
-    FIELD(knurl_hip_desc, continuous_force, "continuous_force", 40, 8) \
-    FIELD(knurl_hip_desc, heat_time, "heat_time", 48, 8) \
-    FIELD(knurl_hip_desc, viscous, "viscous", 56, 8) \
-    FIELD(knurl_hip_desc, delay, "delay", 64, 8) \
-    FIELD(knurl_hip_desc, max_stiffness, "max_stiffness", 72, 8) \
-    FIELD(knurl_hip_desc, slew_rate, "slew_rate", 80, 8) \
-    FIELD(knurl_hip_desc, protections, "protections", 88, 4) \
-    FIELD(knurl_hip_desc, clamp, "clamp", 92, 4) \
-    FIELD(knurl_hip_desc, max_visits, "max_visits", 96, 4) \
-    FIELD(knurl_hip_desc, reserved, "reserved", 100, 4) \
+    FIELD(knurl_surface_desc, normal, "normal", 96, 24) \
+    FIELD(knurl_surface_desc, axis, "axis", 120, 24) \
+    FIELD(knurl_surface_desc, shape_of, "shape_of", 144, 8) \
     STRUCT(knurl_scene_desc, 24) \
     FIELD(knurl_scene_desc, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_scene_desc, max_surfaces, "max_surfaces", 4, 4) \
     FIELD(knurl_scene_desc, hip_count, "hip_count", 8, 4) \
     FIELD(knurl_scene_desc, full_model, "full_model", 12, 4) \
     FIELD(knurl_scene_desc, allocator, "allocator", 16, 8) \
-    STRUCT(knurl_surface_info, 312) \
-    FIELD(knurl_surface_info, struct_size, "struct_size", 0, 4) \
-    FIELD(knurl_surface_info, triangle_count, "triangle_count", 4, 4) \
-    FIELD(knurl_surface_info, dropped_triangles, "dropped_triangles", 8, 4) \
-    FIELD(knurl_surface_info, double_sided, "double_sided", 12, 4) \
-    FIELD(knurl_surface_info, name, "name", 16, 8) \
-    FIELD(knurl_surface_info, shape, "shape", 24, 8) \
-    FIELD(knurl_surface_info, model, "model", 32, 8) \
-    FIELD(knurl_surface_info, bytes, "bytes", 40, 8) \
-    FIELD(knurl_surface_info, bounds_min, "bounds_min", 48, 24) \
-    FIELD(knurl_surface_info, bounds_max, "bounds_max", 72, 24) \
-    FIELD(knurl_surface_info, anchor, "anchor", 96, 24) \
-    FIELD(knurl_surface_info, anchor_x, "anchor_x", 120, 24) \
-    FIELD(knurl_surface_info, anchor_normal, "anchor_normal", 144, 24) \
-    FIELD(knurl_surface_info, anchor_reach, "anchor_reach", 168, 32) \
-    FIELD(knurl_surface_info, stretch, "stretch", 200, 24) \
-    FIELD(knurl_surface_info, why, "why", 224, 8) \
-    FIELD(knurl_surface_info, model_error, "model_error", 232, 8) \
-    FIELD(knurl_surface_info, reversed_twins, "reversed_twins", 240, 4) \
-    FIELD(knurl_surface_info, turned_triangles, "turned_triangles", 244, 4) \
-    FIELD(knurl_surface_info, axis, "axis", 248, 24) \
-    FIELD(knurl_surface_info, stretch_y, "stretch_y", 272, 24) \
-    FIELD(knurl_surface_info, seam, "seam", 296, 8) \
-    FIELD(knurl_surface_info, touching_pairs, "touching_pairs", 304, 8) \
+    STRUCT(knurl_hip_desc, 96) \
+    FIELD(knurl_hip_desc, struct_size, "struct_size", 0, 4) \
+    FIELD(knurl_hip_desc, protections, "protections", 4, 4) \
+    FIELD(knurl_hip_desc, clamp, "clamp", 8, 4) \
+    FIELD(knurl_hip_desc, reserved, "reserved", 12, 4) \
+    FIELD(knurl_hip_desc, workspace, "workspace", 16, 8) \
+    FIELD(knurl_hip_desc, update_rate_hz, "update_rate_hz", 24, 8) \
+    FIELD(knurl_hip_desc, resolution, "resolution", 32, 8) \
+    FIELD(knurl_hip_desc, max_force, "max_force", 40, 8) \
+    FIELD(knurl_hip_desc, continuous_force, "continuous_force", 48, 8) \
+    FIELD(knurl_hip_desc, heat_time, "heat_time", 56, 8) \
+    FIELD(knurl_hip_desc, viscous, "viscous", 64, 8) \
+    FIELD(knurl_hip_desc, delay, "delay", 72, 8) \
+    FIELD(knurl_hip_desc, max_stiffness, "max_stiffness", 80, 8) \
+    FIELD(knurl_hip_desc, slew_rate, "slew_rate", 88, 8) \
     STRUCT(knurl_tick_input, 104) \
     FIELD(knurl_tick_input, position, "position", 0, 24) \
     FIELD(knurl_tick_input, velocity, "velocity", 24, 24) \
@@ -188,21 +163,6 @@
     FIELD(knurl_hip_counts, squeezed_ticks, "squeezed_ticks", 112, 8) \
     FIELD(knurl_hip_counts, visit_limit_ticks, "visit_limit_ticks", 120, 8) \
     FIELD(knurl_hip_counts, reserved, "reserved", 128, 32) \
-    STRUCT(knurl_surface_point, 72) \
-    FIELD(knurl_surface_point, struct_size, "struct_size", 0, 4) \
-    FIELD(knurl_surface_point, reserved, "reserved", 4, 4) \
-    FIELD(knurl_surface_point, surface, "surface", 8, 8) \
-    FIELD(knurl_surface_point, distance, "distance", 16, 8) \
-    FIELD(knurl_surface_point, position, "position", 24, 24) \
-    FIELD(knurl_surface_point, normal, "normal", 48, 24) \
-    STRUCT(knurl_surface_check, 1064) \
-    FIELD(knurl_surface_check, struct_size, "struct_size", 0, 4) \
-    FIELD(knurl_surface_check, exceeded, "exceeded", 4, 4) \
-    FIELD(knurl_surface_check, stiffness, "stiffness", 8, 8) \
-    FIELD(knurl_surface_check, stiffness_limit, "stiffness_limit", 16, 8) \
-    FIELD(knurl_surface_check, amplitude, "amplitude", 24, 8) \
-    FIELD(knurl_surface_check, amplitude_limit, "amplitude_limit", 32, 8) \
-    FIELD(knurl_surface_check, message, "message", 40, 1024) \
     STRUCT(knurl_hip_contact, 112) \
     FIELD(knurl_hip_contact, surface, "surface", 0, 8) \
     FIELD(knurl_hip_contact, proxy, "proxy", 8, 24) \
@@ -343,6 +303,45 @@
     FIELD(knurl_loop_stats, absences, "absences", 104, 8) \
     FIELD(knurl_loop_stats, absent, "absent", 112, 4) \
     FIELD(knurl_loop_stats, paused, "paused", 116, 4) \
+    STRUCT(knurl_surface_info, 312) \
+    FIELD(knurl_surface_info, struct_size, "struct_size", 0, 4) \
+    FIELD(knurl_surface_info, triangle_count, "triangle_count", 4, 4) \
+    FIELD(knurl_surface_info, dropped_triangles, "dropped_triangles", 8, 4) \
+    FIELD(knurl_surface_info, double_sided, "double_sided", 12, 4) \
+    FIELD(knurl_surface_info, name, "name", 16, 8) \
+    FIELD(knurl_surface_info, shape, "shape", 24, 8) \
+    FIELD(knurl_surface_info, model, "model", 32, 8) \
+    FIELD(knurl_surface_info, bytes, "bytes", 40, 8) \
+    FIELD(knurl_surface_info, bounds_min, "bounds_min", 48, 24) \
+    FIELD(knurl_surface_info, bounds_max, "bounds_max", 72, 24) \
+    FIELD(knurl_surface_info, anchor, "anchor", 96, 24) \
+    FIELD(knurl_surface_info, anchor_x, "anchor_x", 120, 24) \
+    FIELD(knurl_surface_info, anchor_normal, "anchor_normal", 144, 24) \
+    FIELD(knurl_surface_info, anchor_reach, "anchor_reach", 168, 32) \
+    FIELD(knurl_surface_info, stretch, "stretch", 200, 24) \
+    FIELD(knurl_surface_info, why, "why", 224, 8) \
+    FIELD(knurl_surface_info, model_error, "model_error", 232, 8) \
+    FIELD(knurl_surface_info, reversed_twins, "reversed_twins", 240, 4) \
+    FIELD(knurl_surface_info, turned_triangles, "turned_triangles", 244, 4) \
+    FIELD(knurl_surface_info, axis, "axis", 248, 24) \
+    FIELD(knurl_surface_info, stretch_y, "stretch_y", 272, 24) \
+    FIELD(knurl_surface_info, seam, "seam", 296, 8) \
+    FIELD(knurl_surface_info, touching_pairs, "touching_pairs", 304, 8) \
+    STRUCT(knurl_surface_point, 72) \
+    FIELD(knurl_surface_point, struct_size, "struct_size", 0, 4) \
+    FIELD(knurl_surface_point, reserved, "reserved", 4, 4) \
+    FIELD(knurl_surface_point, surface, "surface", 8, 8) \
+    FIELD(knurl_surface_point, distance, "distance", 16, 8) \
+    FIELD(knurl_surface_point, position, "position", 24, 24) \
+    FIELD(knurl_surface_point, normal, "normal", 48, 24) \
+    STRUCT(knurl_surface_check, 1064) \
+    FIELD(knurl_surface_check, struct_size, "struct_size", 0, 4) \
+    FIELD(knurl_surface_check, exceeded, "exceeded", 4, 4) \
+    FIELD(knurl_surface_check, stiffness, "stiffness", 8, 8) \
+    FIELD(knurl_surface_check, stiffness_limit, "stiffness_limit", 16, 8) \
+    FIELD(knurl_surface_check, amplitude, "amplitude", 24, 8) \
+    FIELD(knurl_surface_check, amplitude_limit, "amplitude_limit", 32, 8) \
+    FIELD(knurl_surface_check, message, "message", 40, 1024) \
     STRUCT(knurl_stroke_report, 24) \
     FIELD(knurl_stroke_report, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_stroke_report, is_outside, "is_outside", 4, 4) \

@@ -42,8 +42,10 @@ static const char *cue(uint64_t tick) {
     return tick < SCAN_TICKS ? "explore both gratings, left and right, at various speeds" : "touch both gratings";
 }
 
-/* A plate whose front looks up (angle about x -90 degrees) or sideways (about y +-90 degrees). */
-static knurl_result add_plane(knurl_scene *scene, const double centre[3], const double half[2], int axis, double turn,
+static const double upward[3] = {0.0, 1.0, 0.0};
+
+/* normal: where the plate's front looks. */
+static knurl_result add_plane(knurl_scene *scene, const double centre[3], const double half[2], const double normal[3],
                               const knurl_material_desc *material, knurl_surface_id *id) {
     knurl_plane_desc plane;
     knurl_surface_desc surface;
@@ -53,9 +55,7 @@ static knurl_result add_plane(knurl_scene *scene, const double centre[3], const 
     memcpy(surface.position, centre, sizeof surface.position);
     surface.plane = &plane;
     surface.material = material;
-    surface.rotation[0] = surface.rotation[1] = surface.rotation[2] = 0.0;
-    surface.rotation[axis] = 0.70710678118654752 * turn; /* a quarter turn */
-    surface.rotation[3] = 0.70710678118654752;
+    memcpy(surface.normal, normal, sizeof surface.normal);
     return knurl_scene_add_surface(scene, &surface, id);
 }
 
@@ -65,18 +65,20 @@ static knurl_result add_wall(knurl_scene *scene) {
     static const double left[3] = {-GAP, 0.0, 0.0};
     static const double right[3] = {GAP, 0.0, 0.0};
     static const double top[3] = {0.0, WALL, 0.0};
+    static const double leftward[3] = {-1.0, 0.0, 0.0};
+    static const double rightward[3] = {1.0, 0.0, 0.0};
     knurl_material_desc smooth;
     knurl_material_desc_init(&smooth, sizeof smooth);
     smooth.stiffness = STIFFNESS;
-    knurl_result result = add_plane(scene, left, half_side, 1, -1.0, &smooth, NULL);
-    result = result ? result : add_plane(scene, right, half_side, 1, 1.0, &smooth, NULL);
-    return result ? result : add_plane(scene, top, half_top, 0, -1.0, &smooth, NULL);
+    knurl_result result = add_plane(scene, left, half_side, leftward, &smooth, NULL);
+    result = result ? result : add_plane(scene, right, half_side, rightward, &smooth, NULL);
+    return result ? result : add_plane(scene, top, half_top, upward, &smooth, NULL);
 }
 
 static knurl_result configure(knurl_scene *scene, const exp_session *session) {
     knurl_workspace workspace;
     knurl_hip_desc hip;
-    knurl_workspace_init(&workspace);
+    knurl_workspace_set_identity(&workspace);
     knurl_hip_desc_init(&hip, sizeof hip);
     hip.update_rate_hz = EXP_RATE;
     hip.resolution = session->info.resolution;
@@ -97,7 +99,7 @@ static knurl_result build(const exp_session *session, const exp_trial *trial, ex
     for (int side = 0; side < 2 && !result; side++) {
         const double centre[3] = {(side ? 1.0 : -1.0) * (GAP + HALF_WIDTH), 0.0, 0.0};
         material.method = trial->methods[side];
-        result = add_plane(e->scene, centre, half, 0, -1.0, &material, &e->surfaces[side]);
+        result = add_plane(e->scene, centre, half, upward, &material, &e->surfaces[side]);
     }
     result = result ? result : add_wall(e->scene);
     result = result ? result : configure(e->scene, session);

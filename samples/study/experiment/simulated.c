@@ -12,7 +12,7 @@
 double exp_badness(int32_t method, double period_ms, double amplitude) {
     knurl_wave wave;
     study_signal signal;
-    if (knurl_wave_init(method, 1e-3 * period_ms, amplitude, EXP_RATE, &wave) ||
+    if (knurl_wave_prepare(method, 1e-3 * period_ms, amplitude, EXP_RATE, &wave) ||
         !study_signal_of_wave(&wave, EXP_RATE, &signal)) {
         return 1.0; /* no whole number of ticks is a whole number of periods: nothing of it is true */
     }

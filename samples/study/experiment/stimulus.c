@@ -7,8 +7,8 @@ int exp_stimulus_init(const exp_trial *trial, exp_stimulus *stimulus) {
     exp_neighbours(trial->period, periods);
     for (int which = 0; which < 2; which++) {
         for (int i = 0; i < 3; i++) {
-            if (knurl_wave_init(trial->methods[which], 1e-3 * periods[i], trial->amplitude, EXP_RATE,
-                                &stimulus->waves[which][i])) {
+            if (knurl_wave_prepare(trial->methods[which], 1e-3 * periods[i], trial->amplitude, EXP_RATE,
+                                   &stimulus->waves[which][i])) {
                 return tool_error(TOOL_FAILURE, "%s", knurl_error_message());
             }
         }

@@ -17,7 +17,7 @@ static void print_correlations(json_writer *json, const tool_wave *asked, const 
     for (int32_t i = KNURL_WAVE_T1; i <= KNURL_WAVE_T3; i++) {
         knurl_wave wave;
         study_signal other;
-        if (knurl_wave_init(i, asked->period_s, asked->amplitude, asked->rate, &wave) ||
+        if (knurl_wave_prepare(i, asked->period_s, asked->amplitude, asked->rate, &wave) ||
             !study_signal_of_wave(&wave, asked->rate, &other)) {
             json_number(json, wave_method_name(i), NAN); /* null: no whole period within reach */
             continue;

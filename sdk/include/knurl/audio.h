@@ -4,7 +4,7 @@
 #ifndef KNURL_AUDIO_H
 #define KNURL_AUDIO_H
 
-#include <knurl/scene.h>
+#include <knurl/hip.h>
 
 #ifdef __cplusplus
 extern "C" {

@@ -118,6 +118,9 @@ KNURL_API uint32_t knurl_version_number(void);
  * coordinates of a mesh resolve millimetres up to 10 km only: see KNURL_FAR. */
 #define KNURL_COORDINATE_MAX 1000000000.0
 
+/** The default of a number whose field allows it (knurl_hip_desc). */
+#define KNURL_DEFAULT (-1.0)
+
 /** A caller's memory functions, used for all memory of a scene; loops, devices and the glTF loader's own work use
  * malloc. Both are called on the threads that create, edit or destroy the scene, one at a time. Never in a tick. */
 typedef struct knurl_allocator {

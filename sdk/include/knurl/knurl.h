@@ -11,8 +11,10 @@
 #include <knurl/fake.h>
 #include <knurl/gltf.h>
 #include <knurl/grating.h>
+#include <knurl/hip.h>
 #include <knurl/loop.h>
 #include <knurl/motion.h>
+#include <knurl/query.h>
 #include <knurl/scene.h>
 #include <knurl/stroke.h>
 #include <knurl/vibration.h>

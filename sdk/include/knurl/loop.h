@@ -4,7 +4,7 @@
 #define KNURL_LOOP_H
 
 #include <knurl/device.h>
-#include <knurl/scene.h>
+#include <knurl/hip.h>
 
 #ifdef __cplusplus
 extern "C" {

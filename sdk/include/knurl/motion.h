@@ -16,13 +16,12 @@ extern "C" {
  *   divided by the time between them. Before that, positions pass a backlash of one quantum: if an encoder flickers
  *   between two neighbouring values, the velocity is exactly 0; constant motion is unchanged; a reversal loses one
  *   quantum, a first motion half of one.
- * - LOWPASS: the difference, filtered; for comparison.
  * - AUTO: FOAW if the resolution is known (> 0), DIFFERENCE if it is 0.
  *
  * FOAW was chosen by the study `velocity` (samples/study/README.md). Errors (rms) at 0.055 mm and 1 kHz from 5 to 200
  * mm/s: FOAW 0.4 to 1.5 mm/s, a low pass of equal delay 1.9 to 2.3, a difference 16 to 26; at 10 kHz the same. Below
  * one quantum in 15 ms (3.7 mm/s) FOAW gives pulses of up to 5 mm/s. */
-enum { KNURL_VELOCITY_AUTO = 0, KNURL_VELOCITY_DIFFERENCE = 1, KNURL_VELOCITY_FOAW = 2, KNURL_VELOCITY_LOWPASS = 3 };
+enum { KNURL_VELOCITY_AUTO = 0, KNURL_VELOCITY_DIFFERENCE = 1, KNURL_VELOCITY_FOAW = 2 };
 
 /** FOAW's widest window in samples: 15 ms at 1 kHz, a common choice. In the study, twice that has 0.7 times the error
  * at 10 mm/s, 7 ms more delay, and a larger error from 100 mm/s on. At other rates samples are round(rate / 1 kHz)
@@ -33,11 +32,7 @@ enum { KNURL_VELOCITY_AUTO = 0, KNURL_VELOCITY_DIFFERENCE = 1, KNURL_VELOCITY_FO
 /** The most ticks between FOAW's samples; from 10.5 kHz on the window is 150 ticks, and shorter than 15 ms. */
 #define KNURL_FOAW_STRIDE_MAX 10
 
-/** Hz: the cutoff of LOWPASS, first order. Chosen to have the delay of FOAW's widest window, 8 ms. In the study
- * `velocity`, 10 Hz halves its error and doubles its delay; 40 Hz does the opposite. */
-#define KNURL_VELOCITY_LOWPASS_HZ 20.0
-
-/** A velocity estimator of one point; one per HIP, set up by knurl_velocity_init(). It may be copied and needs no
+/** A velocity estimator of one point; one per HIP, set up by knurl_velocity_prepare(). It may be copied and needs no
  * freeing. Its size is the same in all versions; its contents are the library's and may change. */
 typedef struct knurl_velocity {
     uint64_t alignment; /**< of `state` */
@@ -48,15 +43,12 @@ typedef struct knurl_velocity {
  * needs >= 1e-9). update_rate_hz: 1 to 100,000 Hz. FOAW covers 2^30 quanta to either side of 0 (1 m at 1e-9); its
  * choice of the window is exact if 15 samples span less than 2^24 quanta, and rounded to doubles beyond.
  * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_UNKNOWN (method). [any thread] */
-KNURL_API knurl_result knurl_velocity_init(int32_t method, double resolution, double update_rate_hz,
-                                           knurl_velocity *velocity);
+KNURL_API knurl_result knurl_velocity_prepare(int32_t method, double resolution, double update_rate_hz,
+                                              knurl_velocity *velocity);
 
 /** Adds this tick's position (m, finite) and computes the velocity (m/s); 0 at the first tick. [haptic thread] */
 KNURL_API void knurl_velocity_update(knurl_velocity *velocity, const double position[3],
                                      double out[3]) KNURL_NONBLOCKING;
-
-/** Clears the history: the next position counts as the first. [haptic thread] */
-KNURL_API void knurl_velocity_reset(knurl_velocity *velocity) KNURL_NONBLOCKING;
 
 /** Device to scene: scene = origin + rotation * scale * device. */
 typedef struct knurl_workspace {
@@ -67,7 +59,7 @@ typedef struct knurl_workspace {
 } knurl_workspace;
 
 /** Sets the identity: origin 0, no rotation, scale 1. [any thread] */
-KNURL_API void knurl_workspace_init(knurl_workspace *workspace);
+KNURL_API void knurl_workspace_set_identity(knurl_workspace *workspace);
 
 /** Checks a workspace map. Errors: KNURL_ERROR_ARGUMENT if origin or scale is out of range, or the rotation is off
  * orthonormal by more than 1e-6. [any thread] */
@@ -80,10 +72,6 @@ KNURL_API void knurl_workspace_to_scene(const knurl_workspace *workspace, const 
 /** Maps a scene position (m) to device coordinates (m). [any thread; allowed in a tick] */
 KNURL_API void knurl_workspace_to_device(const knurl_workspace *workspace, const double scene[3],
                                          double device[3]) KNURL_NONBLOCKING;
-
-/** Maps a device velocity (m/s) into the scene, scale included. [any thread; allowed in a tick] */
-KNURL_API void knurl_workspace_velocity_to_scene(const knurl_workspace *workspace, const double device[3],
-                                                 double scene[3]) KNURL_NONBLOCKING;
 
 /** Rotates a scene direction or force (N) into device axes; lengths are kept. [any thread; allowed in a tick] */
 KNURL_API void knurl_workspace_vector_to_device(const knurl_workspace *workspace, const double scene[3],

@@ -43,7 +43,8 @@ typedef struct knurl_wave {
  * period_ticks: temporal period in ticks, > 0, at most 1e6; if below 2, it is played as 2 and marked above_nyquist.
  * amplitude: finite, >= 0, in the unit of the heights. event: the caller's.
  * Errors: KNURL_ERROR_ARGUMENT, with a message. [any thread, never from a tick] */
-KNURL_API knurl_result knurl_vibration_event_init(double period_ticks, double amplitude, knurl_vibration_event *event);
+KNURL_API knurl_result knurl_vibration_event_prepare(double period_ticks, double amplitude,
+                                                     knurl_vibration_event *event);
 
 /** The event's height at tick `index`, 0 <= index < event->length; else 0. [any thread; allowed in a tick] */
 KNURL_API double knurl_vibration_event_height(const knurl_vibration_event *event, int32_t index) KNURL_NONBLOCKING;
@@ -52,8 +53,8 @@ KNURL_API double knurl_vibration_event_height(const knurl_vibration_event *event
  * method: KNURL_WAVE_T1, KNURL_WAVE_T2 or KNURL_WAVE_T3. period_s: (0, 10] s. amplitude: finite, >= 0, in the unit of
  * the output (N). update_rate_hz: 1 to 100,000 Hz. wave: the caller's.
  * Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_UNKNOWN (method). [any thread] */
-KNURL_API knurl_result knurl_wave_init(int32_t method, double period_s, double amplitude, double update_rate_hz,
-                                       knurl_wave *wave);
+KNURL_API knurl_result knurl_wave_prepare(int32_t method, double period_s, double amplitude, double update_rate_hz,
+                                          knurl_wave *wave);
 
 /** The signal's value at tick `tick` (any; the signal starts with its positive part at 0), in the unit of its
  * amplitude. Peaks: T1 A; T2 up to sqrt(2) A; T3 up to 1.414 A, in the mixed case 1.732 A. [any thread; allowed in a

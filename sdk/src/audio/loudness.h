@@ -2,7 +2,7 @@
 #ifndef KNURL_SRC_LOUDNESS_H
 #define KNURL_SRC_LOUDNESS_H
 
-#include <knurl/scene.h>
+#include <knurl/hip.h>
 
 #include <stdint.h>
 

@@ -7,14 +7,15 @@
 #include <string.h>
 
 int knurl_range_holds(const knurl_range *range, double value) {
-    return ((range->kind & KNURL_OR_ZERO) && value == 0.0) || ((range->kind & KNURL_OR_NEGATIVE) && value < 0.0) ||
+    return ((range->kind & KNURL_OR_ZERO) && value == 0.0) ||
+           ((range->kind & KNURL_OR_DEFAULT) && value == KNURL_DEFAULT) ||
            ((range->kind & KNURL_OR_INFINITY) && value == HUGE_VAL) ||
            (value >= range->least && value <= range->most && (!(range->kind & KNURL_WHOLE) || value == floor(value)));
 }
 
 const char *knurl_range_text(const knurl_range *range, char *text) {
     (void)snprintf(text, KNURL_RANGE_ROOM, "%s%s%s%s%.10g to %.10g%s%s",
-                   range->kind & KNURL_OR_NEGATIVE ? "a negative number or " : "",
+                   range->kind & KNURL_OR_DEFAULT ? "KNURL_DEFAULT (-1) or " : "",
                    range->kind & KNURL_OR_INFINITY ? "INFINITY or " : "", range->kind & KNURL_OR_ZERO ? "0 or " : "",
                    range->kind & KNURL_WHOLE ? "a whole number from " : "", range->least, range->most,
                    range->unit[0] ? " " : "", range->unit);

@@ -29,8 +29,8 @@
 
 /* Values allowed beyond least to most, and restrictions. */
 enum {
-    KNURL_OR_ZERO = 1,     /* unknown, absent or default, see the field's comment */
-    KNURL_OR_NEGATIVE = 2, /* any negative number: the default */
+    KNURL_OR_ZERO = 1,     /* unknown or absent, see the field's comment */
+    KNURL_OR_DEFAULT = 2,  /* KNURL_DEFAULT */
     KNURL_OR_INFINITY = 4, /* no limit */
     KNURL_WHOLE = 8        /* a whole number */
 };

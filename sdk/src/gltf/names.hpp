@@ -5,7 +5,7 @@
 
 #include "base/finite.h"
 
-#include <knurl/scene.h>
+#include <knurl/query.h>
 
 #include <map>
 #include <string>

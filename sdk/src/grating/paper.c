@@ -41,7 +41,7 @@ double knurl_s2_height(const knurl_grating *grating, knurl_grating_state *state,
     }
     state->moving = grating->resolution > 0.0;
     /* below a tick, however fast, it is played as 2 */
-    knurl_vibration_event_prepare(ticks > 1.0 ? ticks : 1.0, grating->amplitude, &state->event);
+    knurl_vibration_event_fill(ticks > 1.0 ? ticks : 1.0, grating->amplitude, &state->event);
     state->next_tick = 0;
     state->event_count++;
     return knurl_grating_play(state, output);

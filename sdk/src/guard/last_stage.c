@@ -9,7 +9,7 @@
 void knurl_last_stage_init(knurl_last_stage *stage, uint32_t protections, double slew_rate,
                            const knurl_hip_facts *facts) {
     const double square = stage->heat.square;
-    const double rate = slew_rate > 0.0 ? slew_rate : facts->max_force / SLEW_TIME;
+    const double rate = slew_rate != KNURL_DEFAULT ? slew_rate : facts->max_force / SLEW_TIME;
     memset(stage, 0, sizeof *stage);
     stage->slew = protections & KNURL_PROTECT_SLEW ? rate / facts->rate : HUGE_VAL;
     knurl_heat_init(&stage->heat, facts, (protections & KNURL_PROTECT_HEAT) != 0);

@@ -7,7 +7,7 @@
 #include "base/vec3.h"
 #include "guard/heat.h"
 
-#include <knurl/scene.h>
+#include <knurl/hip.h>
 
 typedef struct knurl_last_stage {
     double force[3]; /* N, device axes: as sent at the last tick */
@@ -16,7 +16,7 @@ typedef struct knurl_last_stage {
     knurl_heat heat;
 } knurl_last_stage;
 
-/* protections: only KNURL_PROTECT_SLEW and _HEAT matter. slew_rate: N/s; 0: max_force within 5 ms. stage: zeroed, or
+/* protections: only KNURL_PROTECT_SLEW and _HEAT matter. slew_rate: N/s, or KNURL_DEFAULT. stage: zeroed, or
  * set up before; its heat is kept. facts: complete. */
 void knurl_last_stage_init(knurl_last_stage *stage, uint32_t protections, double slew_rate,
                            const knurl_hip_facts *facts);

@@ -3,7 +3,7 @@
 #ifndef KNURL_SRC_WALL_H
 #define KNURL_SRC_WALL_H
 
-#include <knurl/scene.h>
+#include <knurl/hip.h>
 
 /* Kept from tick to tick, per contact. */
 typedef struct knurl_wall_state {

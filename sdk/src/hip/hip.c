@@ -9,8 +9,16 @@
 #include <string.h>
 
 void knurl_hip_desc_init(knurl_hip_desc *desc, uint32_t size) {
-    const knurl_hip_desc defaults = {
-        .resolution = -1.0, .viscous = -1.0, .delay = -1.0, .protections = KNURL_PROTECT_ALL};
+    const knurl_hip_desc defaults = {.protections = KNURL_PROTECT_ALL,
+                                     .update_rate_hz = KNURL_DEFAULT,
+                                     .resolution = KNURL_DEFAULT,
+                                     .max_force = KNURL_DEFAULT,
+                                     .continuous_force = KNURL_DEFAULT,
+                                     .heat_time = KNURL_DEFAULT,
+                                     .viscous = KNURL_DEFAULT,
+                                     .delay = KNURL_DEFAULT,
+                                     .max_stiffness = KNURL_DEFAULT,
+                                     .slew_rate = KNURL_DEFAULT};
     knurl_desc_write(&defaults, sizeof defaults, desc, size);
 }
 
@@ -24,35 +32,31 @@ const knurl_hip_facts knurl_touch = {1000.0, 0.055e-3, 3.3, 0.88, 60.0, 0.5, 1.0
     }
 
 static const knurl_field fields[] = {
-    FIELD(update_rate_hz, KNURL_RANGE_RATE, KNURL_OR_ZERO),
-    FIELD(resolution, KNURL_RANGE_QUANTUM, KNURL_OR_ZERO | KNURL_OR_NEGATIVE),
-    FIELD(max_force, KNURL_RANGE_HIP_FORCE, KNURL_OR_ZERO),
-    FIELD(continuous_force, KNURL_RANGE_FORCE, KNURL_OR_ZERO | KNURL_OR_INFINITY),
-    FIELD(heat_time, KNURL_RANGE_HEAT_TIME, KNURL_OR_ZERO),
-    FIELD(viscous, KNURL_RANGE_VISCOUS, KNURL_OR_NEGATIVE),
-    FIELD(delay, KNURL_RANGE_DELAY, KNURL_OR_NEGATIVE),
-    FIELD(max_stiffness, KNURL_RANGE_STIFFNESS, KNURL_OR_ZERO | KNURL_OR_INFINITY),
-    FIELD(slew_rate, KNURL_RANGE_SLEW, KNURL_OR_ZERO | KNURL_OR_INFINITY),
+    FIELD(update_rate_hz, KNURL_RANGE_RATE, KNURL_OR_DEFAULT),
+    FIELD(resolution, KNURL_RANGE_QUANTUM, KNURL_OR_DEFAULT | KNURL_OR_ZERO),
+    FIELD(max_force, KNURL_RANGE_HIP_FORCE, KNURL_OR_DEFAULT),
+    FIELD(continuous_force, KNURL_RANGE_FORCE, KNURL_OR_DEFAULT | KNURL_OR_INFINITY),
+    FIELD(heat_time, KNURL_RANGE_HEAT_TIME, KNURL_OR_DEFAULT),
+    FIELD(viscous, KNURL_RANGE_VISCOUS, KNURL_OR_DEFAULT),
+    FIELD(delay, KNURL_RANGE_DELAY, KNURL_OR_DEFAULT),
+    FIELD(max_stiffness, KNURL_RANGE_STIFFNESS, KNURL_OR_DEFAULT | KNURL_OR_INFINITY),
+    FIELD(slew_rate, KNURL_RANGE_SLEW, KNURL_OR_DEFAULT | KNURL_OR_INFINITY),
 };
 
-static double above_zero(double given, double device) {
-    return given > 0.0 ? given : device;
-}
-
-static double from_zero(double given, double device) {
-    return given >= 0.0 ? given : device;
+static double or_else(double given, double device) {
+    return given != KNURL_DEFAULT ? given : device;
 }
 
 /* Values of the description take precedence over the device's; the force is at most `strongest` (N). Both are valid. */
 static knurl_hip_facts settle(const knurl_hip_desc *d, const knurl_hip_facts *device, double strongest) {
-    const knurl_hip_facts made = {above_zero(d->update_rate_hz, device->rate),
-                                  from_zero(d->resolution, device->resolution),
-                                  knurl_min(above_zero(d->max_force, device->max_force), strongest),
-                                  above_zero(d->continuous_force, device->continuous_force),
-                                  above_zero(d->heat_time, device->heat_time),
-                                  from_zero(d->viscous, device->viscous),
-                                  from_zero(d->delay, device->delay),
-                                  above_zero(d->max_stiffness, device->max_stiffness)};
+    const knurl_hip_facts made = {or_else(d->update_rate_hz, device->rate),
+                                  or_else(d->resolution, device->resolution),
+                                  knurl_min(or_else(d->max_force, device->max_force), strongest),
+                                  or_else(d->continuous_force, device->continuous_force),
+                                  or_else(d->heat_time, device->heat_time),
+                                  or_else(d->viscous, device->viscous),
+                                  or_else(d->delay, device->delay),
+                                  or_else(d->max_stiffness, device->max_stiffness)};
     return made;
 }
 
@@ -97,12 +101,12 @@ knurl_result knurl_hip_set_up(knurl_hip *hip, const knurl_hip_desc *d, const knu
     made.given = *d;
     made.given.workspace = NULL; /* the caller's; kept by value below */
     made.rate = facts.rate;
-    result = knurl_velocity_init(d->velocity_method, facts.resolution, facts.rate, &made.velocity);
+    result = knurl_velocity_prepare(KNURL_VELOCITY_AUTO, facts.resolution, facts.rate, &made.velocity);
     if (result) {
         return result;
     }
     made.centred = d->workspace == NULL;
-    knurl_workspace_init(&made.workspace);
+    knurl_workspace_set_identity(&made.workspace);
     if (d->workspace) {
         made.workspace = *d->workspace;
     }
@@ -115,7 +119,6 @@ knurl_result knurl_hip_set_up(knurl_hip *hip, const knurl_hip_desc *d, const knu
         made.is_rotated |= made.workspace.rotation[i] != (i % 4 == 0 ? 1.0 : 0.0);
     }
     knurl_contacts_init(&made.contacts, 1.0 / facts.rate, time);
-    made.contacts.max_visits = d->max_visits > 0 ? d->max_visits : KNURL_VISITS_MAX;
     replace(hip, &made);
     return KNURL_OK;
 }

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT */
 #include "hip/hip_workspace.h"
 
-#include <knurl/scene.h>
+#include <knurl/hip.h>
 
 #include <string.h>
 
@@ -80,7 +80,7 @@ void knurl_workspace_go(knurl_workspace_move *move, const knurl_workspace *start
 }
 
 void knurl_workspace_target(const knurl_workspace_move *move, const knurl_workspace *start, knurl_workspace *target) {
-    knurl_workspace_init(target);
+    knurl_workspace_set_identity(target);
     if (move->sequence == 0) {
         *target = *start;
     } else {

@@ -5,7 +5,7 @@
 #include "base/base.h"
 #include "base/seqlock.h"
 
-#include <knurl/scene.h>
+#include <knurl/hip.h>
 
 #include <stddef.h>
 

@@ -77,9 +77,9 @@ knurl_result knurl_loop_vibrate(knurl_loop *loop, int32_t method, double frequen
                           seconds);
     }
     knurl_result result = check_scene(loop);
-    result = result
-                 ? result
-                 : knurl_wave_init(method, 1.0 / frequency_hz, amplitude, loop->shared.desc.update_rate_hz, &cue.wave);
+    result =
+        result ? result
+               : knurl_wave_prepare(method, 1.0 / frequency_hz, amplitude, loop->shared.desc.update_rate_hz, &cue.wave);
     if (!result) {
         cue.ticks = ticks_of(&cue.wave, seconds, loop->shared.desc.update_rate_hz);
         knurl_seqlock_write(&loop->shared.added.cue_sequence, loop->shared.added.cue_words, &cue, sizeof cue);

@@ -14,7 +14,7 @@ void knurl_loop_init(knurl_loop *loop, const knurl_hip_facts *facts) {
     loop->haptic.game_was_alive = loop->haptic.wanted = 1;
     loop->haptic.per_force = 1.0 / (facts->continuous_force * facts->continuous_force);
     loop->haptic.last = loop->shared.hip ? &loop->shared.hip->last : &loop->haptic.own;
-    knurl_last_stage_init(&loop->haptic.own, loop->shared.desc.protections, 0.0, facts);
+    knurl_last_stage_init(&loop->haptic.own, loop->shared.desc.protections, KNURL_DEFAULT, facts);
 }
 
 static void report(knurl_loop *loop, int32_t code, double value) {

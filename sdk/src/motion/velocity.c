@@ -1,5 +1,5 @@
-/* Velocity estimators: first difference, low pass, and first-order adaptive windowing (FOAW; Janabi-Sharifi, Hayward
- * and Chen 2000) on integers stored in doubles.
+/* Velocity estimators: first difference, and first-order adaptive windowing (FOAW; Janabi-Sharifi, Hayward and Chen
+ * 2000) on integers stored in doubles.
  * SPDX-License-Identifier: MIT */
 #include "motion/velocity.h"
 
@@ -39,8 +39,6 @@
  * host enables traps. */
 #define UNSEEN 1e300
 
-#define TAU 6.283185307179586
-
 typedef char state_fits[sizeof(knurl_velocity_state) <= sizeof(knurl_velocity) ? 1 : -1];
 
 /* Ticks between samples: a millisecond. */
@@ -49,12 +47,13 @@ static uint32_t stride_at(double rate) {
     return ticks < 1.0 ? 1 : ticks < KNURL_FOAW_STRIDE_MAX ? (uint32_t)ticks : KNURL_FOAW_STRIDE_MAX;
 }
 
-knurl_result knurl_velocity_init(int32_t method, double resolution, double update_rate_hz, knurl_velocity *velocity) {
+knurl_result knurl_velocity_prepare(int32_t method, double resolution, double update_rate_hz,
+                                    knurl_velocity *velocity) {
     if (KNURL_IS_NULL(velocity)) {
         return KNURL_ERROR_ARGUMENT;
     }
-    if (method < KNURL_VELOCITY_AUTO || method > KNURL_VELOCITY_LOWPASS) {
-        return knurl_fail(KNURL_ERROR_UNKNOWN, "velocity method: expected AUTO, DIFFERENCE, FOAW or LOWPASS, found %d",
+    if (method < KNURL_VELOCITY_AUTO || method > KNURL_VELOCITY_FOAW) {
+        return knurl_fail(KNURL_ERROR_UNKNOWN, "velocity method: expected AUTO, DIFFERENCE or FOAW, found %d",
                           (int)method);
     }
     if (!knurl_is_within(resolution, 0.0, 1.0)) {
@@ -73,7 +72,6 @@ knurl_result knurl_velocity_init(int32_t method, double resolution, double updat
     knurl_velocity_state *state = knurl_velocity_get_state(velocity);
     state->method = method;
     state->rate = update_rate_hz;
-    state->share = 1.0 - exp(-TAU * KNURL_VELOCITY_LOWPASS_HZ / update_rate_hz);
     if (method == KNURL_VELOCITY_FOAW) {
         state->stride = stride_at(update_rate_hz);
         state->steps_per_m = STEPS_PER_COUNT / resolution;
@@ -85,28 +83,12 @@ knurl_result knurl_velocity_init(int32_t method, double resolution, double updat
     return KNURL_OK;
 }
 
-void knurl_velocity_reset(knurl_velocity *velocity) {
-    if (!velocity) {
-        return;
-    }
-    knurl_velocity_get_state(velocity)->started = 0;
-}
-
 static void difference(knurl_velocity_state *velocity, const double position[3], double out[3]) {
     for (int axis = 0; axis < 3; axis++) {
         out[axis] = velocity->started ? (position[axis] - velocity->last[axis]) * velocity->rate : 0.0;
         velocity->last[axis] = position[axis];
     }
     velocity->started = 1;
-}
-
-static void lowpass(knurl_velocity_state *velocity, const double position[3], double out[3]) {
-    const int started = velocity->started != 0;
-    difference(velocity, position, out);
-    for (int axis = 0; axis < 3; axis++) {
-        const double before = started ? velocity->smooth[axis] : 0.0;
-        out[axis] = velocity->smooth[axis] = before + velocity->share * (out[axis] - before);
-    }
 }
 
 /* Larger than any slope between positions, smaller than any slope to UNSEEN. */
@@ -277,10 +259,6 @@ void knurl_velocity_update(knurl_velocity *velocity, const double position[3], d
     knurl_velocity_state *state = knurl_velocity_get_state(velocity);
     if (state->method == KNURL_VELOCITY_DIFFERENCE) {
         difference(state, position, out);
-        return;
-    }
-    if (state->method == KNURL_VELOCITY_LOWPASS) {
-        lowpass(state, position, out);
         return;
     }
     if (!state->started) {

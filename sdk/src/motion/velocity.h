@@ -9,15 +9,13 @@ typedef struct knurl_velocity_state {
                                                      the newest in row `newest`, older ones after it. Each row is stored
                                                      twice, so that a window never wraps */
     double held[4];     /* FOAW: the newest position after the backlash, in whole 1024ths of a quantum: x, y, z, 0 */
-    double last[3];     /* DIFFERENCE, LOWPASS: the previous position, m */
-    double smooth[3];   /* LOWPASS: the previous velocity, m/s */
-    double share;       /* LOWPASS: weight of a new difference, 0 to 1 */
+    double last[3];     /* DIFFERENCE: the previous position, m */
     double rate;        /* update rate, Hz */
     double steps_per_m; /* FOAW: fixed-point steps per metre */
     double slope_unit;  /* FOAW: m/s per step and sample */
     uint32_t newest;    /* FOAW: row of the newest position of a ring, 0 to 15 */
     uint32_t started;   /* 1: a position has been seen */
-    int32_t method;     /* KNURL_VELOCITY_DIFFERENCE, _FOAW or _LOWPASS */
+    int32_t method;     /* KNURL_VELOCITY_DIFFERENCE or _FOAW */
     uint32_t avx;       /* FOAW: 1: computed with AVX, if available; 0: the same numbers, more slowly */
     uint32_t stride;    /* FOAW: ticks between samples */
     uint32_t phase;     /* FOAW: the ring of this tick, 0 to stride - 1 */
@@ -26,6 +24,11 @@ typedef struct knurl_velocity_state {
 /* Safe with copies of a knurl_velocity: it is an array of char, so compilers assume that it may alias the state. */
 static inline knurl_velocity_state *knurl_velocity_get_state(knurl_velocity *velocity) {
     return (knurl_velocity_state *)(void *)velocity;
+}
+
+/* Clears the history: the next position counts as the first. */
+static inline void knurl_velocity_reset(knurl_velocity *velocity) {
+    knurl_velocity_get_state(velocity)->started = 0;
 }
 
 #endif

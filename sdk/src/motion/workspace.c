@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-void knurl_workspace_init(knurl_workspace *workspace) {
+void knurl_workspace_set_identity(knurl_workspace *workspace) {
     if (KNURL_IS_NULL(workspace)) {
         return;
     }
@@ -62,14 +62,6 @@ void knurl_workspace_to_device(const knurl_workspace *workspace, const double sc
     vec3_sub(scene, workspace->origin, offset);
     vec3_scale(1.0 / workspace->scale, offset, offset);
     mat3_mul_transposed(workspace->rotation, offset, device);
-}
-
-void knurl_workspace_velocity_to_scene(const knurl_workspace *workspace, const double device[3], double scene[3]) {
-    if (!workspace || !device || !scene) {
-        return;
-    }
-    mat3_mul(workspace->rotation, device, scene);
-    vec3_scale(workspace->scale, scene, scene);
 }
 
 void knurl_workspace_vector_to_device(const knurl_workspace *workspace, const double scene[3], double device[3]) {

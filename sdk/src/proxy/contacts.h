@@ -7,6 +7,8 @@
 #include "base/base.h"
 #include "proxy/obstacles.h"
 
+#include <knurl/hip.h>
+
 /* m: highest step between two surfaces, with nothing in between, over which the HIP passes from one to the other. */
 #define KNURL_STEP_HEIGHT 1e-3
 

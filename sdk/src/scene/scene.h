@@ -7,6 +7,8 @@
 #include "base/handle.h"
 #include "hip/hip.h"
 
+#include <knurl/query.h>
+
 /* In knurl_scene.use, above the bits of all HIPs: destroyed by its owner, kept for the loops that use it. */
 #define KNURL_SCENE_DESTROYED 0x100u
 

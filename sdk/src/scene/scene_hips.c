@@ -57,7 +57,7 @@ knurl_result knurl_scene_adopt_device(knurl_scene *scene, uint32_t hip, const kn
     knurl_workspace workspace;
     knurl_workspace_target(&h->move, &h->workspace, &workspace);
     d.workspace = h->centred ? NULL : &workspace;
-    if (d.update_rate_hz != 0.0 && d.update_rate_hz != facts->rate) {
+    if (d.update_rate_hz != KNURL_DEFAULT && d.update_rate_hz != facts->rate) {
         result = knurl_fail(KNURL_ERROR_ARGUMENT,
                             "update rate: HIP %u was configured for %g Hz, its loop for %g Hz; leave one open",
                             (unsigned)hip, d.update_rate_hz, facts->rate);

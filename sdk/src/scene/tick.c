@@ -84,7 +84,8 @@ static int read_hip(knurl_hip *hip, const knurl_tick_input *input, knurl_tick_ou
     }
     if (hip->is_rotated) {
         knurl_workspace_to_scene(w, input->position, out->hip);
-        knurl_workspace_velocity_to_scene(w, velocity, out->hip_velocity);
+        mat3_mul(w->rotation, velocity, out->hip_velocity);
+        vec3_scale(w->scale, out->hip_velocity, out->hip_velocity);
     } else {
         vec3_madd(w->origin, w->scale, input->position, out->hip);
         vec3_scale(w->scale, velocity, out->hip_velocity);

@@ -30,6 +30,38 @@ knurl_result knurl_surface_check_pose(const double position[3], const double rot
     return KNURL_OK;
 }
 
+/* The shortest turn from +z to a unit normal; exact for the six axes. */
+static void turn_to(const double n[3], double rotation[9]) {
+    static const double over[9] = {1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, -1.0};
+    const double side2 = n[0] * n[0] + n[1] * n[1];
+    const double share = n[2] > 0.0 ? 1.0 / (1.0 + n[2]) : (1.0 - n[2]) / side2; /* the same, but for rounding */
+    const double across = -n[0] * n[1] * share;
+    const double turned[9] = {
+        1.0 - n[0] * n[0] * share, across, n[0], across, 1.0 - n[1] * n[1] * share, n[1], -n[0], -n[1], n[2]};
+    memcpy(rotation, n[2] < 0.0 && side2 < 1e-30 ? over : turned, sizeof turned);
+}
+
+static knurl_result set_pose(const knurl_surface_desc *d, knurl_pose *pose) {
+    static const double unturned[4] = {0.0, 0.0, 0.0, 1.0};
+    double normal[3];
+    knurl_result result = knurl_surface_check_pose(d->position, d->rotation, pose);
+    result = result ? result : knurl_check_coordinates("normal", "", d->normal);
+    if (result) {
+        return result;
+    }
+    vec3_copy(d->normal, normal);
+    if (vec3_normalise(normal) > 0.0) {
+        if (memcmp(d->rotation, unturned, sizeof unturned) != 0) {
+            return knurl_fail(KNURL_ERROR_ARGUMENT,
+                              "rotation: expected 0, 0, 0, 1 with a normal, found [%g, %g, %g, %g]", d->rotation[0],
+                              d->rotation[1], d->rotation[2], d->rotation[3]);
+        }
+        turn_to(normal, pose->rotation);
+        knurl_pose_settle(pose);
+    }
+    return KNURL_OK;
+}
+
 static knurl_result set_axis(const knurl_surface_desc *d, knurl_surface_data *surface) {
     const knurl_result result = knurl_check_coordinates("axis", "", d->axis);
     if (result) {
@@ -196,7 +228,7 @@ static knurl_result fill_in(knurl_heap *heap, const knurl_surface_desc *d, uint3
         const knurl_result taken = set_shared_shape(d, shared, surface);
         result = result ? result : taken;
     }
-    result = result ? result : knurl_surface_check_pose(d->position, d->rotation, &pose);
+    result = result ? result : set_pose(d, &pose);
     result = result || shared ? result : set_shape(heap, d, full_model, surface);
     knurl_pose_settle(&surface->local);
     surface->radius = result ? 0.0 : find_radius(surface);

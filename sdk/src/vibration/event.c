@@ -31,7 +31,7 @@ static void init_odd(int32_t length, double amplitude, knurl_vibration_event *ev
     event->negative = event->positive / ratio;
 }
 
-void knurl_vibration_event_prepare(double period_ticks, double amplitude, knurl_vibration_event *event) {
+void knurl_vibration_event_fill(double period_ticks, double amplitude, knurl_vibration_event *event) {
     const double ticks = knurl_snap_ticks(period_ticks);
     event->above_nyquist = ticks < 2.0;
     if (ticks < 2.25) {
@@ -52,7 +52,7 @@ void knurl_vibration_event_prepare(double period_ticks, double amplitude, knurl_
     }
 }
 
-knurl_result knurl_vibration_event_init(double period_ticks, double amplitude, knurl_vibration_event *event) {
+knurl_result knurl_vibration_event_prepare(double period_ticks, double amplitude, knurl_vibration_event *event) {
     if (KNURL_IS_NULL(event)) {
         return KNURL_ERROR_ARGUMENT;
     }
@@ -63,7 +63,7 @@ knurl_result knurl_vibration_event_init(double period_ticks, double amplitude, k
     if (!(amplitude >= 0.0 && knurl_is_finite(amplitude))) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "amplitude: expected a finite number >= 0, found %g", amplitude);
     }
-    knurl_vibration_event_prepare(period_ticks, amplitude, event);
+    knurl_vibration_event_fill(period_ticks, amplitude, event);
     return KNURL_OK;
 }
 

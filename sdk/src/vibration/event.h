@@ -7,10 +7,9 @@
 /* Algorithm 5's six values in units of A (event.c). */
 extern const double knurl_mixed_heights[6];
 
-/* knurl_vibration_event_init() without checks: 0 < period_ticks <= KNURL_MAX_PERIOD_TICKS, amplitude finite and >=
+/* knurl_vibration_event_prepare() without checks: 0 < period_ticks <= KNURL_MAX_PERIOD_TICKS, amplitude finite and >=
  * 0. */
-void knurl_vibration_event_prepare(double period_ticks, double amplitude,
-                                   knurl_vibration_event *event) KNURL_NONBLOCKING;
+void knurl_vibration_event_fill(double period_ticks, double amplitude, knurl_vibration_event *event) KNURL_NONBLOCKING;
 
 /* knurl_vibration_event_value() of an event that is not mixed. */
 static inline double knurl_vibration_event_level(const knurl_vibration_event *event, int32_t index) {

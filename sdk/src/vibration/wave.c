@@ -13,18 +13,18 @@ static knurl_result init_mix(knurl_wave *wave) {
     const double lower = 2.0 * floor(0.5 * period);
     if (upper == lower) { /* already even: Eqs. 3 and 4 would be 0/0, and one component is enough */
         wave->part_count = 1;
-        return knurl_vibration_event_init(upper, wave->amplitude, &wave->parts[0]);
+        return knurl_vibration_event_prepare(upper, wave->amplitude, &wave->parts[0]);
     }
     const double a = upper * fabs(period - lower);
     const double b = lower * fabs(upper - period);
     const double norm = sqrt(a * a + b * b);
     wave->part_count = 2;
-    const knurl_result result = knurl_vibration_event_init(upper, wave->amplitude * a / norm, &wave->parts[0]);
-    return result ? result : knurl_vibration_event_init(lower, wave->amplitude * b / norm, &wave->parts[1]);
+    const knurl_result result = knurl_vibration_event_prepare(upper, wave->amplitude * a / norm, &wave->parts[0]);
+    return result ? result : knurl_vibration_event_prepare(lower, wave->amplitude * b / norm, &wave->parts[1]);
 }
 
-knurl_result knurl_wave_init(int32_t method, double period_s, double amplitude, double update_rate_hz,
-                             knurl_wave *wave) {
+knurl_result knurl_wave_prepare(int32_t method, double period_s, double amplitude, double update_rate_hz,
+                                knurl_wave *wave) {
     if (KNURL_IS_NULL(wave)) {
         return KNURL_ERROR_ARGUMENT;
     }
@@ -52,7 +52,7 @@ knurl_result knurl_wave_init(int32_t method, double period_s, double amplitude, 
         result = init_mix(&made);
     } else if (method == KNURL_WAVE_T3) {
         made.part_count = 1;
-        result = knurl_vibration_event_init(made.period_ticks, amplitude, &made.parts[0]);
+        result = knurl_vibration_event_prepare(made.period_ticks, amplitude, &made.parts[0]);
     }
     if (!result) {
         *wave = made;

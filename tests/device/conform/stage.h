@@ -99,7 +99,7 @@ static inline void stage_open(stage *s, double stiffness, double lid_z, double r
     if (lid_z > 0.0) {
         s->lid = stage_add(s, stiffness, lid_z, 1);
     }
-    knurl_workspace_init(&workspace);
+    knurl_workspace_set_identity(&workspace);
     knurl_hip_desc_init(&hip, sizeof hip);
     hip.workspace = &workspace;
     assert_int_equal(knurl_scene_configure_hip(s->scene, 0, &hip), KNURL_OK);

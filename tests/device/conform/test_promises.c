@@ -13,7 +13,7 @@ static const char *const ways[WAYS] = {"a force is held", "pressed into a wall",
 
 static void turn_half(double seconds) {
     knurl_workspace turned;
-    knurl_workspace_init(&turned);
+    knurl_workspace_set_identity(&turned);
     turned.rotation[4] = turned.rotation[8] = -1.0; /* about x */
     judge_edits(&s.j);
     assert_int_equal(knurl_scene_set_workspace(s.scene, 0, &turned, seconds), KNURL_OK);

@@ -4,8 +4,9 @@
 #include "support/fake.h"
 
 #include <knurl/device_functions.h>
+#include <knurl/hip.h>
 #include <knurl/loop.h>
-#include <knurl/scene.h>
+#include <knurl/query.h>
 
 #include <stdio.h>
 

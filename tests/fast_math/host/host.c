@@ -114,17 +114,17 @@ static void give_bad_input(void) {
         tell("position", i, try_surface(&material, position));
         tell("vertex", i, try_vertex(bad));
         knurl_workspace workspace;
-        knurl_workspace_init(&workspace);
+        knurl_workspace_set_identity(&workspace);
         tell("rate", i, try_hip(&workspace, bad));
         workspace.scale = bad;
         tell("scale", i, try_hip(&workspace, 1000.0));
-        knurl_workspace_init(&workspace);
+        knurl_workspace_set_identity(&workspace);
         workspace.origin[2] = bad;
         tell("origin", i, try_hip(&workspace, 1000.0));
         knurl_wave wave;
-        tell("wave", i, knurl_wave_init(KNURL_WAVE_T2, 0.01, bad, 1000.0, &wave));
+        tell("wave", i, knurl_wave_prepare(KNURL_WAVE_T2, 0.01, bad, 1000.0, &wave));
         knurl_velocity velocity;
-        tell("velocity", i, knurl_velocity_init(KNURL_VELOCITY_FOAW, bad, 1000.0, &velocity));
+        tell("velocity", i, knurl_velocity_prepare(KNURL_VELOCITY_FOAW, bad, 1000.0, &velocity));
     }
 }
 
@@ -190,7 +190,7 @@ static int stroke(int32_t method, int is_sheet) {
     knurl_hip_desc hip;
     knurl_scene *scene = NULL;
     material.spatial_frequency[1] = is_sheet ? 300.0 : 0.0;
-    knurl_workspace_init(&workspace);
+    knurl_workspace_set_identity(&workspace);
     knurl_hip_desc_init(&hip, sizeof hip);
     hip.workspace = &workspace;
     knurl_result result = knurl_scene_create(NULL, &scene);

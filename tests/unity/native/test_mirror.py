@@ -155,9 +155,9 @@ class MirrorTest(unittest.TestCase):
         self.expect_refused("struct knurl_odd {\n    enum { KNURL_ODD } odd;\n};", "only plain fields", 1)
 
     def test_a_struct_by_value_is_refused(self):
-        self.expect_refused("KNURL_API void knurl_odd(knurl_tick_input odd);", "goes by value")
+        self.expect_refused("KNURL_API void knurl_odd(knurl_material_desc odd);", "goes by value")
         self.setUp()
-        self.expect_refused("KNURL_API knurl_tick_input knurl_odd(void);", "goes by value")
+        self.expect_refused("KNURL_API knurl_material_desc knurl_odd(void);", "goes by value")
 
     def test_a_layout_that_is_not_the_natural_one_is_refused(self):
         packed = "#pragma pack(push, 1)\nstruct knurl_odd {\n    char a;\n    double odd;\n};\n#pragma pack(pop)"

@@ -54,7 +54,7 @@ namespace Knurl
             double x = rotation.x, y = rotation.y, z = rotation.z, w = rotation.w;
             double twice = 2.0 / (x * x + y * y + z * z + w * w); // a float's quaternion is not quite of length 1
             double* r = workspace->rotation;
-            NativeMethods.knurl_workspace_init(workspace);
+            NativeMethods.knurl_workspace_set_identity(workspace);
             ToScene(position, workspace->origin);
             workspace->scale = scale;
             r[0] = -(1.0 - twice * (y * y + z * z));

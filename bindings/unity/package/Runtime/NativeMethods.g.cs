@@ -27,6 +27,22 @@ namespace Knurl
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_velocity
+    {
+        public ulong alignment;
+        public fixed byte state[11256];
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_workspace
+    {
+        public fixed double origin[3];
+        public fixed double rotation[9];
+        public double scale;
+        public fixed double reserved[3];
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct knurl_plane_desc
     {
         public uint struct_size;
@@ -111,22 +127,6 @@ namespace Knurl
     }
 
     [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct knurl_velocity
-    {
-        public ulong alignment;
-        public fixed byte state[11256];
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct knurl_workspace
-    {
-        public fixed double origin[3];
-        public fixed double rotation[9];
-        public double scale;
-        public fixed double reserved[3];
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct knurl_material_desc
     {
         public uint struct_size;
@@ -150,29 +150,9 @@ namespace Knurl
         public knurl_material_desc* material;
         public fixed double position[3];
         public fixed double rotation[4];
+        public fixed double normal[3];
         public fixed double axis[3];
         public ulong shape_of;
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct knurl_hip_desc
-    {
-        public uint struct_size;
-        public int velocity_method;
-        public double update_rate_hz;
-        public double resolution;
-        public double max_force;
-        public knurl_workspace* workspace;
-        public double continuous_force;
-        public double heat_time;
-        public double viscous;
-        public double delay;
-        public double max_stiffness;
-        public double slew_rate;
-        public uint protections;
-        public uint clamp;
-        public uint max_visits;
-        public uint reserved;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -186,31 +166,22 @@ namespace Knurl
     }
 
     [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct knurl_surface_info
+    internal unsafe struct knurl_hip_desc
     {
         public uint struct_size;
-        public uint triangle_count;
-        public uint dropped_triangles;
-        public uint double_sided;
-        public byte* name;
-        public byte* shape;
-        public byte* model;
-        public ulong bytes;
-        public fixed double bounds_min[3];
-        public fixed double bounds_max[3];
-        public fixed double anchor[3];
-        public fixed double anchor_x[3];
-        public fixed double anchor_normal[3];
-        public fixed double anchor_reach[4];
-        public fixed double stretch[3];
-        public byte* why;
-        public double model_error;
-        public uint reversed_twins;
-        public uint turned_triangles;
-        public fixed double axis[3];
-        public fixed double stretch_y[3];
-        public double seam;
-        public ulong touching_pairs;
+        public uint protections;
+        public uint clamp;
+        public uint reserved;
+        public knurl_workspace* workspace;
+        public double update_rate_hz;
+        public double resolution;
+        public double max_force;
+        public double continuous_force;
+        public double heat_time;
+        public double viscous;
+        public double delay;
+        public double max_stiffness;
+        public double slew_rate;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -268,29 +239,6 @@ namespace Knurl
         public ulong squeezed_ticks;
         public ulong visit_limit_ticks;
         public fixed ulong reserved[4];
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct knurl_surface_point
-    {
-        public uint struct_size;
-        public uint reserved;
-        public ulong surface;
-        public double distance;
-        public fixed double position[3];
-        public fixed double normal[3];
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct knurl_surface_check
-    {
-        public uint struct_size;
-        public uint exceeded;
-        public double stiffness;
-        public double stiffness_limit;
-        public double amplitude;
-        public double amplitude_limit;
-        public fixed byte message[1024];
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -498,6 +446,57 @@ namespace Knurl
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_surface_info
+    {
+        public uint struct_size;
+        public uint triangle_count;
+        public uint dropped_triangles;
+        public uint double_sided;
+        public byte* name;
+        public byte* shape;
+        public byte* model;
+        public ulong bytes;
+        public fixed double bounds_min[3];
+        public fixed double bounds_max[3];
+        public fixed double anchor[3];
+        public fixed double anchor_x[3];
+        public fixed double anchor_normal[3];
+        public fixed double anchor_reach[4];
+        public fixed double stretch[3];
+        public byte* why;
+        public double model_error;
+        public uint reversed_twins;
+        public uint turned_triangles;
+        public fixed double axis[3];
+        public fixed double stretch_y[3];
+        public double seam;
+        public ulong touching_pairs;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_surface_point
+    {
+        public uint struct_size;
+        public uint reserved;
+        public ulong surface;
+        public double distance;
+        public fixed double position[3];
+        public fixed double normal[3];
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_surface_check
+    {
+        public uint struct_size;
+        public uint exceeded;
+        public double stiffness;
+        public double stiffness_limit;
+        public double amplitude;
+        public double amplitude_limit;
+        public fixed byte message[1024];
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct knurl_stroke_report
     {
         public uint struct_size;
@@ -629,7 +628,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "b80a5038959dc068";
+        internal const string Interface = "f57ca69f8ab05789";
 
         internal const string Version = "0.3.0";
 
@@ -639,6 +638,8 @@ namespace Knurl
             switch (type)
             {
                 case "knurl_allocator": return sizeof(knurl_allocator);
+                case "knurl_velocity": return sizeof(knurl_velocity);
+                case "knurl_workspace": return sizeof(knurl_workspace);
                 case "knurl_plane_desc": return sizeof(knurl_plane_desc);
                 case "knurl_mesh_desc": return sizeof(knurl_mesh_desc);
                 case "knurl_vibration_event": return sizeof(knurl_vibration_event);
@@ -646,18 +647,13 @@ namespace Knurl
                 case "knurl_grating": return sizeof(knurl_grating);
                 case "knurl_grating_state": return sizeof(knurl_grating_state);
                 case "knurl_grating_output": return sizeof(knurl_grating_output);
-                case "knurl_velocity": return sizeof(knurl_velocity);
-                case "knurl_workspace": return sizeof(knurl_workspace);
                 case "knurl_material_desc": return sizeof(knurl_material_desc);
                 case "knurl_surface_desc": return sizeof(knurl_surface_desc);
-                case "knurl_hip_desc": return sizeof(knurl_hip_desc);
                 case "knurl_scene_desc": return sizeof(knurl_scene_desc);
-                case "knurl_surface_info": return sizeof(knurl_surface_info);
+                case "knurl_hip_desc": return sizeof(knurl_hip_desc);
                 case "knurl_tick_input": return sizeof(knurl_tick_input);
                 case "knurl_tick_output": return sizeof(knurl_tick_output);
                 case "knurl_hip_counts": return sizeof(knurl_hip_counts);
-                case "knurl_surface_point": return sizeof(knurl_surface_point);
-                case "knurl_surface_check": return sizeof(knurl_surface_check);
                 case "knurl_hip_contact": return sizeof(knurl_hip_contact);
                 case "knurl_audio_desc": return sizeof(knurl_audio_desc);
                 case "knurl_device_info": return sizeof(knurl_device_info);
@@ -674,6 +670,9 @@ namespace Knurl
                 case "knurl_loop_desc": return sizeof(knurl_loop_desc);
                 case "knurl_percentiles": return sizeof(knurl_percentiles);
                 case "knurl_loop_stats": return sizeof(knurl_loop_stats);
+                case "knurl_surface_info": return sizeof(knurl_surface_info);
+                case "knurl_surface_point": return sizeof(knurl_surface_point);
+                case "knurl_surface_check": return sizeof(knurl_surface_check);
                 case "knurl_stroke_report": return sizeof(knurl_stroke_report);
                 case "knurl_session_desc": return sizeof(knurl_session_desc);
                 case "knurl_session_state": return sizeof(knurl_session_state);
@@ -689,19 +688,19 @@ namespace Knurl
         internal const int KNURL_VERSION_MINOR = 3;
         internal const int KNURL_VERSION_PATCH = 0;
         internal const double KNURL_COORDINATE_MAX = 1000000000.0;
-        internal const int KNURL_NO_EVENT = -1;
-        internal const double KNURL_S2_DEADBAND = 0.001;
+        internal const double KNURL_DEFAULT = -1.0;
         internal const int KNURL_FOAW_WINDOW = 15;
         internal const int KNURL_FOAW_STRIDE_MAX = 10;
-        internal const double KNURL_VELOCITY_LOWPASS_HZ = 20.0;
+        internal const int KNURL_NO_EVENT = -1;
+        internal const double KNURL_S2_DEADBAND = 0.001;
         internal const int KNURL_CONTACTS_MAX = 4;
         internal const double KNURL_UPDATE_RATE_MIN = 100.0;
         internal const double KNURL_UPDATE_RATE_MAX = 10000.0;
         internal const double KNURL_ENTRY_SPEED_MAX = 0.5;
         internal const int KNURL_VISITS_MAX = 800;
+        internal const int KNURL_PATH_ROWS_MAX = 65536;
         internal const double KNURL_FAR = 1000000.0;
         internal const double KNURL_STRETCH_MAX = 2.0;
-        internal const int KNURL_PATH_ROWS_MAX = 65536;
         internal const int KNURL_SESSION_HISTORY = 8192;
         internal const int KNURL_OK = 0;
         internal const int KNURL_ERROR_ARGUMENT = -1;
@@ -717,6 +716,9 @@ namespace Knurl
         internal const int KNURL_ERROR_SYSTEM = -11;
         internal const int KNURL_ERROR_DEVICE_NOT_READY = -12;
         internal const int KNURL_ERROR_CANCELLED = -13;
+        internal const int KNURL_VELOCITY_AUTO = 0;
+        internal const int KNURL_VELOCITY_DIFFERENCE = 1;
+        internal const int KNURL_VELOCITY_FOAW = 2;
         internal const int KNURL_WAVE_T1 = 17;
         internal const int KNURL_WAVE_T2 = 18;
         internal const int KNURL_WAVE_T3 = 19;
@@ -727,19 +729,15 @@ namespace Knurl
         internal const int KNURL_METHOD_S1 = 1;
         internal const int KNURL_METHOD_S2 = 2;
         internal const int KNURL_METHOD_BANDLIMITED = 3;
-        internal const int KNURL_VELOCITY_AUTO = 0;
-        internal const int KNURL_VELOCITY_DIFFERENCE = 1;
-        internal const int KNURL_VELOCITY_FOAW = 2;
-        internal const int KNURL_VELOCITY_LOWPASS = 3;
+        internal const int KNURL_FULL_MESHES = 1;
+        internal const int KNURL_FULL_SEARCH = 2;
+        internal const int KNURL_FULL_GRATING = 4;
+        internal const int KNURL_FULL_ALL = 7;
         internal const int KNURL_PROTECT_ENTRY = 1;
         internal const int KNURL_PROTECT_SLEW = 2;
         internal const int KNURL_PROTECT_HEAT = 4;
         internal const int KNURL_PROTECT_PASSIVITY = 8;
         internal const int KNURL_PROTECT_ALL = 15;
-        internal const int KNURL_FULL_MESHES = 1;
-        internal const int KNURL_FULL_SEARCH = 2;
-        internal const int KNURL_FULL_GRATING = 4;
-        internal const int KNURL_FULL_ALL = 7;
         internal const int KNURL_TICK_CONTACT = 1;
         internal const int KNURL_TICK_FORCE_LIMIT = 2;
         internal const int KNURL_TICK_ABOVE_NYQUIST = 4;
@@ -752,15 +750,6 @@ namespace Knurl
         internal const int KNURL_TICK_ABSENT = 512;
         internal const int KNURL_TICK_SQUEEZED = 1024;
         internal const int KNURL_TICK_VISIT_LIMIT = 2048;
-        internal const int KNURL_LIMIT_STABILITY = 1;
-        internal const int KNURL_LIMIT_STIFFNESS = 2;
-        internal const int KNURL_LIMIT_AMPLITUDE = 4;
-        internal const int KNURL_LIMIT_HEAT = 8;
-        internal const int KNURL_LIMIT_PERIOD = 16;
-        internal const int KNURL_LIMIT_FAR = 64;
-        internal const int KNURL_LIMIT_VISITS = 128;
-        internal const int KNURL_LIMIT_WINDING = 256;
-        internal const int KNURL_LIMIT_STRETCH = 32;
         internal const int KNURL_FAULT_LOST = 1;
         internal const int KNURL_FAULT_SILENT = 2;
         internal const int KNURL_FAULT_CORRUPT = 3;
@@ -798,6 +787,15 @@ namespace Knurl
         internal const int KNURL_LOOP_RUNNING = 1;
         internal const int KNURL_LOOP_DONE = 2;
         internal const int KNURL_LOOP_LOST = 3;
+        internal const int KNURL_LIMIT_STABILITY = 1;
+        internal const int KNURL_LIMIT_STIFFNESS = 2;
+        internal const int KNURL_LIMIT_AMPLITUDE = 4;
+        internal const int KNURL_LIMIT_HEAT = 8;
+        internal const int KNURL_LIMIT_PERIOD = 16;
+        internal const int KNURL_LIMIT_FAR = 64;
+        internal const int KNURL_LIMIT_VISITS = 128;
+        internal const int KNURL_LIMIT_WINDING = 256;
+        internal const int KNURL_LIMIT_STRETCH = 32;
         internal const int KNURL_SESSION_CONTACT_STARTED = 1;
         internal const int KNURL_SESSION_CONTACT_ENDED = 2;
         internal const int KNURL_SESSION_BUTTON = 3;
@@ -823,21 +821,45 @@ namespace Knurl
         internal static extern uint knurl_version_number();
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_velocity_prepare(int method, double resolution, double update_rate_hz,
+            knurl_velocity* velocity);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_velocity_update(knurl_velocity* velocity, double* position, double* @out);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_workspace_set_identity(knurl_workspace* workspace);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_workspace_check(knurl_workspace* workspace);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_workspace_to_scene(knurl_workspace* workspace, double* device, double* scene);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_workspace_to_device(knurl_workspace* workspace, double* scene,
+            double* device);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_workspace_vector_to_device(knurl_workspace* workspace, double* scene,
+            double* device);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void knurl_plane_desc_init(knurl_plane_desc* desc, uint size);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void knurl_mesh_desc_init(knurl_mesh_desc* desc, uint size);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int knurl_vibration_event_init(double period_ticks, double amplitude,
+        internal static extern int knurl_vibration_event_prepare(double period_ticks, double amplitude,
             knurl_vibration_event* @event);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern double knurl_vibration_event_height(knurl_vibration_event* @event, int index);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int knurl_wave_init(int method, double period_s, double amplitude, double update_rate_hz,
-            knurl_wave* wave);
+        internal static extern int knurl_wave_prepare(int method, double period_s, double amplitude,
+            double update_rate_hz, knurl_wave* wave);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern double knurl_wave_value(knurl_wave* wave, ulong tick);
@@ -866,47 +888,10 @@ namespace Knurl
         internal static extern int knurl_method_from_name(byte* name, int* method);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int knurl_velocity_init(int method, double resolution, double update_rate_hz,
-            knurl_velocity* velocity);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern void knurl_velocity_update(knurl_velocity* velocity, double* position, double* @out);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern void knurl_velocity_reset(knurl_velocity* velocity);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern void knurl_workspace_init(knurl_workspace* workspace);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int knurl_workspace_check(knurl_workspace* workspace);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern void knurl_workspace_to_scene(knurl_workspace* workspace, double* device, double* scene);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern void knurl_workspace_to_device(knurl_workspace* workspace, double* scene,
-            double* device);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern void knurl_workspace_velocity_to_scene(knurl_workspace* workspace, double* device,
-            double* scene);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern void knurl_workspace_vector_to_device(knurl_workspace* workspace, double* scene,
-            double* device);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void knurl_material_desc_init(knurl_material_desc* desc, uint size);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void knurl_surface_desc_init(knurl_surface_desc* desc, uint size);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern void knurl_surface_info_init(knurl_surface_info* info, uint size);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern void knurl_hip_desc_init(knurl_hip_desc* desc, uint size);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void knurl_scene_desc_init(knurl_scene_desc* desc, uint size);
@@ -929,7 +914,14 @@ namespace Knurl
             knurl_surface_desc* desc);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern uint knurl_scene_has_surface(knurl_scene* scene, ulong surface);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_scene_set_material(knurl_scene* scene, ulong surface,
+            knurl_material_desc* material);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_scene_get_material(knurl_scene* scene, ulong surface,
             knurl_material_desc* material);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -941,53 +933,25 @@ namespace Knurl
             double* rotation);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern uint knurl_scene_has_surface(knurl_scene* scene, ulong surface);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_scene_set_user_data(knurl_scene* scene, ulong surface, IntPtr user_data);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_scene_get_user_data(knurl_scene* scene, ulong surface, IntPtr* user_data);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern void knurl_surface_point_init(knurl_surface_point* point, uint size);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int knurl_scene_find_closest(knurl_scene* scene, double* position, double radius,
-            knurl_surface_point* point);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int knurl_scene_cast_ray(knurl_scene* scene, double* from, double* to,
-            knurl_surface_point* point);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_scene_commit(knurl_scene* scene);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern uint knurl_scene_get_surface_count(knurl_scene* scene);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern ulong knurl_scene_get_surface(knurl_scene* scene, uint index);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int knurl_scene_find_surface(knurl_scene* scene, byte* name, ulong* surface);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int knurl_scene_get_surface_name(knurl_scene* scene, ulong surface, byte** name);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int knurl_scene_get_material(knurl_scene* scene, ulong surface,
-            knurl_material_desc* material);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int knurl_scene_get_surface_info(knurl_scene* scene, ulong surface,
-            knurl_surface_info* info);
+        internal static extern void knurl_scene_collect(knurl_scene* scene);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern ulong knurl_scene_get_bytes(knurl_scene* scene);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern void knurl_scene_collect(knurl_scene* scene);
+        internal static extern int knurl_scene_lock_memory(knurl_scene* scene);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_hip_desc_init(knurl_hip_desc* desc, uint size);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_scene_configure_hip(knurl_scene* scene, uint hip, knurl_hip_desc* desc);
@@ -998,13 +962,6 @@ namespace Knurl
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_scene_set_workspace(knurl_scene* scene, uint hip, knurl_workspace* workspace,
             double seconds);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern void knurl_surface_check_init(knurl_surface_check* check, uint size);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int knurl_scene_check_surface(knurl_scene* scene, uint hip, ulong surface,
-            knurl_surface_check* check);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_scene_tick(knurl_scene* scene, uint hip, knurl_tick_input* input,
@@ -1021,9 +978,6 @@ namespace Knurl
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern uint knurl_scene_get_contacts(knurl_scene* scene, uint hip, knurl_hip_contact* contacts,
             uint capacity);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int knurl_scene_lock_memory(knurl_scene* scene);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void knurl_audio_desc_init(knurl_audio_desc* desc, uint size);
@@ -1187,6 +1141,43 @@ namespace Knurl
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_loop_get_stats(knurl_loop* loop, knurl_loop_stats* stats);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern uint knurl_scene_get_surface_count(knurl_scene* scene);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern ulong knurl_scene_get_surface(knurl_scene* scene, uint index);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_scene_find_surface(knurl_scene* scene, byte* name, ulong* surface);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_scene_get_surface_name(knurl_scene* scene, ulong surface, byte** name);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_surface_info_init(knurl_surface_info* info, uint size);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_scene_get_surface_info(knurl_scene* scene, ulong surface,
+            knurl_surface_info* info);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_surface_point_init(knurl_surface_point* point, uint size);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_scene_find_closest(knurl_scene* scene, double* position, double radius,
+            knurl_surface_point* point);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_scene_cast_ray(knurl_scene* scene, double* from, double* to,
+            knurl_surface_point* point);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_surface_check_init(knurl_surface_check* check, uint size);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_scene_check_surface(knurl_scene* scene, uint hip, ulong surface,
+            knurl_surface_check* check);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void knurl_stroke_report_init(knurl_stroke_report* report, uint size);
