@@ -51,6 +51,7 @@ FILE *os_open_stdout(void); /* a stream of its own, at the same offset */
 
 int os_remove(const char *path);                    /* may be called by os_before_end()'s handler */
 int os_replace(const char *path, const char *with); /* renames `with`; the file that was there is gone */
+int os_sync(FILE *stream);                          /* what was written survives a power cut */
 int os_make_folder(const char *path);
 int os_random(uint64_t *number); /* that nobody can guess */
 

@@ -181,6 +181,10 @@ int os_replace(const char *path, const char *with) {
     return rename(with, path);
 }
 
+int os_sync(FILE *stream) {
+    return fflush(stream) != 0 || fsync(fileno(stream)) != 0 ? -1 : 0;
+}
+
 int os_make_folder(const char *path) {
     return mkdir(path, 0777);
 }

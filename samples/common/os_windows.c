@@ -283,6 +283,10 @@ int os_replace(const char *path, const char *with) {
     return widen(path, to) || widen(with, from) ? -1 : MoveFileExW(from, to, MOVEFILE_REPLACE_EXISTING) ? 0 : fail();
 }
 
+int os_sync(FILE *stream) {
+    return fflush(stream) != 0 || _commit(_fileno(stream)) != 0 ? -1 : 0;
+}
+
 int os_make_folder(const char *path) {
     wchar_t wide[PATH_ROOM];
     return widen(path, wide) ? -1 : CreateDirectoryW(wide, NULL) ? 0 : fail();

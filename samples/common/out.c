@@ -186,7 +186,7 @@ int out_open(out_file *file, const char *path) {
     return 0;
 }
 
-int out_keep(out_file *file) {
+static int finish(out_file *file, int may_be_replaced) {
     int failed = ferror(file->stream);
     failed = fclose(file->stream) != 0 || failed;
     file->stream = NULL;
@@ -198,7 +198,7 @@ int out_keep(out_file *file) {
     if (failed) {
         (void)fail(file->path, strerror(errno));
     } else {
-        if (file->partial) {
+        if (file->partial && !may_be_replaced) {
             out_protect(file->path); /* against the next output */
         }
         strike(file);
@@ -207,11 +207,17 @@ int out_keep(out_file *file) {
     return failed ? 1 : 0;
 }
 
-void out_leave(out_file *file) {
-    if (file->partial) {
-        strike(file);
+int out_keep(out_file *file) {
+    return finish(file, 0);
+}
+
+int out_update(out_file *file, int on_disk) {
+    if (on_disk && os_sync(file->stream) != 0) {
+        const int code = fail(file->path, strerror(errno));
+        out_discard(file);
+        return code;
     }
-    out_discard(file);
+    return finish(file, 1);
 }
 
 void out_discard(out_file *file) {

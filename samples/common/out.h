@@ -26,8 +26,9 @@ int out_open(out_file *file, const char *path);
 /* Closes and renames; 0, or 1 having said why. No later output of this process may replace it. */
 int out_keep(out_file *file);
 
-/* Closes and leaves what there is under its temporary name (`partial`). */
-void out_leave(out_file *file);
+/* The same for a file that this process writes again and again: a crash leaves the old file or the new one, and a later
+ * output may replace it. on_disk: 1: a power cut does so too; that takes some 20 ms. */
+int out_update(out_file *file, int on_disk);
 
 /* Closes and removes; does nothing after out_keep(), or on a zeroed file. */
 void out_discard(out_file *file);

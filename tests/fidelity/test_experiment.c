@@ -141,7 +141,7 @@ TEST(blocks_hold_every_cell_once_in_an_order_that_chance_makes) {
     for (uint64_t seed = 0; seed < SEEDS; seed++) {
         const exp_design *d = exp_design_of(1 + (int32_t)(seed % 2));
         exp_trial trials[EXP_MAX_TRIALS];
-        assert_int_equal(exp_plan(d, seed, 0, trials), 72);
+        assert_int_equal(exp_plan(d, seed, 0, 0, trials), 72);
         for (uint32_t i = 0; i < 72; i += 12) {
             check_pairing(trials + i, d);
             assert_int_equal(trials[i].block, 1 + i / 24);
@@ -168,7 +168,7 @@ TEST(experiment_3_has_each_grating_once_and_either_side) {
         exp_trial trials[EXP_MAX_TRIALS];
         const int reduced = (int)(seed % 2);
         double sum = 0.0;
-        assert_int_equal(exp_plan(d, seed, reduced, trials), 3);
+        assert_int_equal(exp_plan(d, seed, reduced, 0, trials), 3);
         for (int i = 0; i < 3; i++) {
             CHECK_SAME(trials[i].amplitude, reduced ? 0.27 : 2.7);
             sum += trials[i].period * trials[i].period;
@@ -186,10 +186,10 @@ TEST(experiment_3_has_each_grating_once_and_either_side) {
 TEST(a_seed_makes_one_order_and_another_seed_another) {
     exp_trial a[EXP_MAX_TRIALS];
     exp_trial b[EXP_MAX_TRIALS];
-    (void)exp_plan(exp_design_of(1), 7, 0, a);
-    (void)exp_plan(exp_design_of(1), 7, 0, b);
+    (void)exp_plan(exp_design_of(1), 7, 0, 0, a);
+    (void)exp_plan(exp_design_of(1), 7, 0, 0, b);
     assert_memory_equal(a, b, sizeof a);
-    (void)exp_plan(exp_design_of(1), 8, 0, b);
+    (void)exp_plan(exp_design_of(1), 8, 0, 0, b);
     assert_memory_not_equal(a, b, sizeof a);
 }
 
@@ -197,7 +197,7 @@ TEST(a_seed_makes_one_order_and_another_seed_another) {
 
 TEST(the_simulated_answerer_is_the_formula_it_says) {
     enum { DRAWS = 2000 };
-    const exp_trial trial = {1, 5, 1.05, {KNURL_WAVE_T1, KNURL_WAVE_T3}};
+    const exp_trial trial = {1, 5, 1.05, {KNURL_WAVE_T1, KNURL_WAVE_T3}, {0, 0}};
     double periods[3];
     double difference = 0.0;
     uint64_t noise = 1;

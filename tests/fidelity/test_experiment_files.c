@@ -7,8 +7,9 @@
 
 #define HEADER                                                                                                         \
     "experiment,subject,answers,device,seed,sound,trial,block,period,amplitude,first,second,preferred,rt_s,ticks,"     \
-    "force_limit_ticks,above_nyquist_ticks,overruns,restarts,contact_first_s,contact_second_s\n"
-#define REST  ",1.5,10001,0,0,0,0,0,0\n"
+    "force_limit_ticks,above_nyquist_ticks,overruns,restarts,contact_first_s,contact_second_s,softer_ticks,"           \
+    "fault_first,fault_second\n"
+#define REST  ",1.5,10001,0,0,0,0,0,0,0,none,none\n"
 #define GOOD  "1,s1,keyboard,touch,1,yes,1,1,23,1.05,T1,T3,T3" REST
 #define GOOD2 "1,s1,keyboard,touch,1,yes,2,1,21,1.05,T3,T1,T1" REST
 
@@ -56,11 +57,11 @@ static void check_session(const char *experiment, const char *amplitude, size_t 
 }
 
 TEST(experiment_1_runs_unattended_to_its_end_and_the_same_again) {
-    check_session("1", "as-printed", 72);
+    check_session("1", "as-printed", 78);
 }
 
 TEST(experiment_2_runs_unattended_to_its_end_and_the_same_again) {
-    check_session("2", "as-printed", 72);
+    check_session("2", "as-printed", 78);
 }
 
 TEST(experiment_3_runs_unattended_to_its_end_and_the_same_again) {
@@ -77,8 +78,8 @@ TEST(experiment_3_counts_what_the_device_cannot_give) {
         process_free(&p);
         char *csv = read_file(path);
         for (size_t row = 0; row < 3; row++) {
-            double cells[21] = {0.0};
-            assert_int_equal(csv_row(csv, row, cells, COUNT_OF(cells)), 21);
+            double cells[24] = {0.0};
+            assert_int_equal(csv_row(csv, row, cells, COUNT_OF(cells)), 24);
             assert_int_equal(cells[14], 60000);
             assert_true(reduced ? cells[15] == 0.0 : cells[15] > 0.0);
             assert_true(cells[19] > 29.0 && cells[20] > 29.0);
@@ -184,9 +185,9 @@ TEST(what_is_no_record_is_refused_with_its_line) {
         {"", "expected a header"},
         {HEADER, "at least one row"},
         {"period,amplitude\n" GOOD, "line 1: expected the header"},
-        {HEADER GOOD "1,s1,keyboard\n", "line 3: expected 21 cells, found 3"},
-        {HEADER GOOD "\n", "line 3: expected 21 cells"},
-        {HEADER GOOD GOOD2 "4,s1,keyboard,touch,1,yes,1,1,23,1.05,T1,T3,T3" REST, "line 4: experiment: expected"},
+        {HEADER GOOD "1,s1,keyboard\n", "line 3: expected 24 cells, found 3"},
+        {HEADER GOOD "\n", "line 3: expected 24 cells"},
+        {HEADER GOOD GOOD2 "5,s1,keyboard,touch,1,yes,1,1,23,1.05,T1,T3,T3" REST, "line 4: experiment: expected"},
         {HEADER "1,,keyboard,touch,1,yes,1,1,23,1.05,T1,T3,T3" REST, "line 2: subject"},
         {HEADER "1,s1,nobody,touch,1,yes,1,1,23,1.05,T1,T3,T3" REST, "line 2: answers"},
         {HEADER "1,s1,keyboard,touch,1,loud,1,1,23,1.05,T1,T3,T3" REST, "line 2: sound"},
@@ -198,7 +199,8 @@ TEST(what_is_no_record_is_refused_with_its_line) {
         {HEADER "1,s1,keyboard,touch,1,yes,1,1,23,1.05,T2,T3,T3" REST, "line 2: first"},
         {HEADER "1,s1,keyboard,touch,1,yes,1,1,23,1.05,T3,T3,T3" REST, "line 2: second"},
         {HEADER "1,s1,keyboard,touch,1,yes,1,1,23,1.05,T1,T3,T2" REST, "line 2: preferred"},
-        {HEADER "1,s1,keyboard,touch,1,yes,1,1,23,1.05,T1,T3,T3,1.5,10001,-1,0,0,0,0,0\n", "line 2: force_limit_ticks"},
+        {HEADER "1,s1,keyboard,touch,1,yes,1,1,23,1.05,T1,T3,T3,1.5,10001,-1,0,0,0,0,0,0,none,none\n",
+         "line 2: force_limit_ticks"},
         {HEADER GOOD GOOD, "line 3: this trial of subject s1"},
         {HEADER GOOD "1,s2,SIMULATED,fake,1,yes,1,1,23,1.05,T1,T3,T3" REST, "line 3: people's answers"}};
     const char *path = tool_path("bad.csv");
@@ -218,7 +220,7 @@ TEST(what_is_no_record_is_refused_with_its_line) {
 TEST(wrong_usage_is_2_and_one_line) {
     static const struct {
         const char *arguments[5], *word;
-    } bad[] = {{{"4"}, "expected 1, 2, 3 or analyse, found '4'"},
+    } bad[] = {{{"4"}, "expected 1, 2, 3, compare, analyse or power, found '4'"},
                {{"analyse"}, "at least one CSV"},
                {{"1", "--quick"}, "unknown option '--quick'"},
                {{"1", "--seed"}, "after --seed"},
@@ -227,7 +229,7 @@ TEST(wrong_usage_is_2_and_one_line) {
                {{"1", "--sound", "loud"}, "--sound: expected"},
                {{"1", "--subject", "a b"}, "--subject: expected"},
                {{"1", "--subject", ""}, "--subject: expected"},
-               {{"1", "--amplitude", "reduced"}, "experiment 3"},
+               {{"1", "--amplitude", "reduced"}, "is for gratings"},
                {{"3", "--amplitude", "big"}, "--amplitude: expected"},
                {{"1", "--answers", "guess"}, "--answers: expected"},
                {{"1", "--answers", "buttons"}, "the fake device has none"},

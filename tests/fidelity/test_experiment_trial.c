@@ -34,7 +34,7 @@ static long double scheduled(const exp_trial *trial, uint64_t ms) {
 TEST(every_trial_s_force_is_the_paper_s_schedule) {
     for (int32_t e = 1; e <= 2; e++) {
         exp_trial trials[EXP_MAX_TRIALS];
-        (void)exp_plan(exp_design_of(e), 3, 0, trials);
+        (void)exp_plan(exp_design_of(e), 3, 0, 0, trials);
         for (uint32_t i = 0; i < 24; i++) { /* one block: every cell */
             exp_stimulus stimulus;
             assert_int_equal(exp_stimulus_init(&trials[i], &stimulus), TOOL_OK);
@@ -49,8 +49,9 @@ TEST(every_trial_s_force_is_the_paper_s_schedule) {
 
 typedef struct bench {
     knurl_device device; /* first: the driver's functions get it */
-    double written[12000][3];
-    uint64_t reads, writes;
+    double written[60000][3];
+    uint64_t reads, writes, loops;
+    uint64_t starts[8];         /* writes before each loop */
     uint64_t press_at, move_at; /* reads; UINT64_MAX: never */
     uint32_t held, pressed;     /* buttons before and from press_at on */
 } bench;
@@ -70,7 +71,8 @@ static void get_info(const knurl_device *device, knurl_device_info *info) {
 }
 
 static knurl_result start(knurl_device *device, double rate) {
-    (void)device;
+    bench *b = of(device);
+    b->starts[b->loops++ % COUNT_OF(b->starts)] = b->writes;
     CHECK_SAME(rate, 1000.0);
     return KNURL_OK;
 }
@@ -111,7 +113,7 @@ static exp_session begin(int32_t experiment, int32_t answers) {
 }
 
 TEST(the_device_is_told_the_schedule_shortened_to_what_it_can_do) {
-    const exp_trial trial = {1, 2.5, 2.10, {KNURL_WAVE_T3, KNURL_WAVE_T1}};
+    const exp_trial trial = {1, 2.5, 2.10, {KNURL_WAVE_T3, KNURL_WAVE_T1}, {0, 0}};
     const exp_session s = begin(1, EXP_SIMULATED);
     exp_outcome o;
     uint64_t beyond = 0;
@@ -130,7 +132,7 @@ TEST(the_device_is_told_the_schedule_shortened_to_what_it_can_do) {
 }
 
 TEST(leaving_the_sphere_zeroes_the_force_and_begins_the_trial_anew) {
-    const exp_trial trial = {1, 5, 1.05, {KNURL_WAVE_T1, KNURL_WAVE_T3}};
+    const exp_trial trial = {1, 5, 1.05, {KNURL_WAVE_T1, KNURL_WAVE_T3}, {0, 0}};
     const exp_session s = begin(1, EXP_SIMULATED);
     exp_outcome o;
     device.move_at = 1500;
@@ -142,6 +144,54 @@ TEST(leaving_the_sphere_zeroes_the_force_and_begins_the_trial_anew) {
     CHECK_SAME(device.written[1501][1], 0.0L);
 }
 
+/* --- training (IV-A4) --- */
+
+/* The medium vibration of each progression in the paper's order. */
+TEST(the_demonstration_is_the_paper_s_ten_progressions) {
+    static const struct {
+        int32_t method;
+        int64_t milliticks;
+        long double amplitude, push;
+    } medium[10] = {{KNURL_WAVE_T1, 30000, 1.05L, 0.0L}, {KNURL_WAVE_T1, 30000, 2.10L, 0.0L},
+                    {KNURL_WAVE_T1, 30000, 1.05L, 0.0L}, {KNURL_WAVE_T1, 30000, 2.10L, 0.0L},
+                    {KNURL_WAVE_T1, 50000, 1.05L, 0.0L}, {KNURL_WAVE_T2, 29000, 1.05L, 0.0L},
+                    {KNURL_WAVE_T1, 30000, 1.05L, 0.5L}, {KNURL_WAVE_T1, 50000, 2.10L, 0.0L},
+                    {KNURL_WAVE_T2, 29000, 2.10L, 0.0L}, {KNURL_WAVE_T1, 30000, 2.10L, 0.5L}};
+    const exp_session s = begin(1, EXP_SIMULATED);
+    int stopped = 0;
+    assert_int_equal(exp_demonstrate(&s, &stopped), TOOL_OK);
+    assert_false(stopped);
+    assert_int_equal(device.loops, 5);
+    for (size_t i = 0; i < 10; i++) {
+        double (*force)[3] = device.written + device.starts[i / 2] + 1000 + (i % 2 ? 5000 : 0);
+        for (uint64_t t = 0; t < 1000; t++) {
+            const long double low = paper_value(KNURL_WAVE_T1, t, 50000, medium[i].amplitude);
+            const long double high = paper_value(KNURL_WAVE_T1, t, 24000, medium[i].amplitude);
+            CHECK_CLOSE(force[t][1], low, 1e-12L);
+            CHECK_CLOSE(force[1500 + t][1],
+                        medium[i].push + paper_value(medium[i].method, t, medium[i].milliticks, medium[i].amplitude),
+                        1e-12L);
+            CHECK_CLOSE(force[3000 + t][1], high, 1e-12L);
+            CHECK_SAME(force[1000 + t / 2][1], 0.0L); /* the pauses */
+            CHECK_SAME(force[2500 + t / 2][1], 0.0L);
+        }
+    }
+}
+
+TEST(both_buttons_stop_the_force_until_the_trial_begins_anew) {
+    const exp_trial trial = {1, 5, 1.05, {KNURL_WAVE_T1, KNURL_WAVE_T3}, {0, 0}};
+    const exp_session s = begin(1, EXP_SIMULATED);
+    exp_outcome o;
+    device.pressed = 3;
+    device.press_at = 1500;
+    assert_int_equal(exp_play_temporal(&s, &trial, &o), TOOL_OK);
+    assert_int_equal(o.stopped, 1);
+    assert_true(device.written[1499][1] != 0.0);
+    for (uint64_t t = 1500; t < device.writes; t++) {
+        CHECK_SAME(device.written[t][1], 0.0L);
+    }
+}
+
 /* --- answers --- */
 
 static void no_force(exp_run *run, uint64_t tick, const knurl_device_sample *sample, double force[3]) {
@@ -151,8 +201,9 @@ static void no_force(exp_run *run, uint64_t tick, const knurl_device_sample *sam
     (void)force;
 }
 
-static const char *no_cue(uint64_t tick) {
+static const char *no_cue(uint64_t tick, void *user) {
     (void)tick;
+    (void)user;
     return "";
 }
 
@@ -172,11 +223,11 @@ TEST(a_button_answers_when_it_goes_down_after_the_question) {
     exp_run run = short_run();
     exp_outcome o;
     memset(&o, 0, sizeof o);
-    device.held = 1; /* the first is held down all the time: no answer */
-    device.pressed = 3;
+    device.held = 2;    /* held down all the time: no answer */
+    device.pressed = 1; /* lets go of the second and presses the first */
     device.press_at = 120;
     assert_int_equal(exp_drive(&s, &run, &o), TOOL_OK);
-    assert_int_equal(o.chosen, 1);
+    assert_int_equal(o.chosen, 0);
     assert_true(o.rt_s >= 0.070 && o.rt_s < 2.0);
 }
 

@@ -6,9 +6,15 @@
 
 volatile sig_atomic_t exp_interrupted;
 
-/* Every tick: the force, then whether the question stands, then the buttons. [haptic thread] */
+/* Every tick: both buttons, the force, then whether the question stands, then a button. [haptic thread] */
 static void on_tick(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user) {
     exp_run *run = user;
+    if ((sample->buttons & 3u) == 3u) {
+        __atomic_store_n(&run->stopped, 1u, __ATOMIC_RELEASE);
+    }
+    if (__atomic_load_n(&run->stopped, __ATOMIC_RELAXED)) {
+        return; /* the force stays zero */
+    }
     run->force(run, tick, sample, force);
     const uint32_t fresh = sample->buttons & ~run->buttons; /* held down before does not count */
     run->buttons = sample->buttons;
@@ -29,7 +35,7 @@ static uint64_t ticks_of(const knurl_loop *loop) {
 }
 
 static void show_cue(const exp_session *session, const exp_run *run, uint64_t ticks, const char **shown) {
-    const char *now = run->cue(ticks);
+    const char *now = run->cue(ticks, run->cue_user);
     if (now != *shown && session->answers != EXP_SIMULATED) {
         say_progress("%s ", now);
     }
@@ -56,8 +62,8 @@ static int wait_for_end(const exp_session *session, exp_run *run, knurl_loop *lo
     int asked = 0;
     int answer = 0;
     while (!knurl_loop_wait(loop, asked ? 0.0 : 0.005) && !exp_interrupted && answer == 0 &&
-           !__atomic_load_n(&run->left, __ATOMIC_ACQUIRE)) {
-        if (session->answers != EXP_SIMULATED && __atomic_load_n(&run->asking, __ATOMIC_ACQUIRE)) {
+           !__atomic_load_n(&run->left, __ATOMIC_ACQUIRE) && !__atomic_load_n(&run->stopped, __ATOMIC_ACQUIRE)) {
+        if (session->answers != EXP_SIMULATED && run->question && __atomic_load_n(&run->asking, __ATOMIC_ACQUIRE)) {
             answer = ask(session, run, &asked);
             if (asked && session->answers == EXP_BUTTONS) {
                 (void)knurl_loop_wait(loop, 0.005);
@@ -78,7 +84,7 @@ static int wait_for_end(const exp_session *session, exp_run *run, knurl_loop *lo
 }
 
 static void step_to_end(const exp_run *run, knurl_loop *loop) {
-    while (ticks_of(loop) < run->end_tick && !exp_interrupted && !run->left) {
+    while (ticks_of(loop) < run->end_tick && !exp_interrupted && !run->left && !run->stopped) {
         const uint64_t before = ticks_of(loop);
         (void)knurl_loop_step(loop, 1000);
         if (ticks_of(loop) == before) {
@@ -96,8 +102,9 @@ static knurl_result make_loop(const exp_session *session, exp_run *run, knurl_lo
     desc.force_callback = on_tick;
     desc.user = run;
     desc.update_rate_hz = EXP_RATE;
-    desc.protections = 0; /* as printed: 2.1 N; a real device's own protection has the last word */
-    desc.tick_limit = session->answers == EXP_SIMULATED ? run->end_tick : 0;
+    /* 0 as printed: 2.1 N; a real device's own protection has the last word */
+    desc.protections = session->design->protections & KNURL_PROTECT_HEAT;
+    desc.tick_limit = session->answers == EXP_SIMULATED || !run->question ? run->end_tick : 0;
     const knurl_result result = knurl_loop_create(&desc, loop);
     return result || session->fast ? result : knurl_loop_start(*loop);
 }
@@ -120,9 +127,10 @@ int exp_drive(const exp_session *session, exp_run *run, exp_outcome *outcome) {
     knurl_loop_destroy(loop);
     outcome->ticks = stats.ticks;
     outcome->overruns = stats.overruns;
+    outcome->stopped = run->stopped;
     if (code == TOOL_OK && stats.state == KNURL_LOOP_LOST) {
         code = tool_error(TOOL_FAILURE, "the device was lost after %llu ticks of a trial",
                           (unsigned long long)stats.ticks);
     }
-    return code == TOOL_OK && exp_interrupted ? tool_error(TOOL_FAILURE, "interrupted") : code;
+    return code == TOOL_OK && exp_interrupted ? TOOL_INTERRUPTED + exp_interrupted : code;
 }

@@ -1,45 +1,50 @@
-/* A trial of experiment 3 on a device: two plates with a grating each, and a wall between them that keeps the HIP from
- * sliding from one to the other.
- * SPDX-License-Identifier: MIT */
+/* A trial of experiment 3 or 4 on a device: two plates with a grating each, and a wall between them that keeps the HIP
+ * from sliding from one to the other. SPDX-License-Identifier: MIT */
 #include "experiment.h"
 
 #include <string.h>
 
 #define STIFFNESS   700.0 /* N/m: K = 0.7 N/mm (IV-C4) */
-#define SCAN_TICKS  60000 /* at least one minute a pair (IV-C4) */
 #define GAP         0.005 /* m from the middle to a plate's edge; the wall stands there */
 #define HALF_WIDTH  0.035 /* m of a plate, along x */
 #define HALF_LENGTH 0.035 /* m along z */
 #define WALL        0.015 /* m above the plates */
 #define PRESS       0.001 /* m below the lowest trough: where the simulated hand wants to be */
+#define PUSH        0.5   /* N, upwards: the paper's bad progression with a net force */
+#define ROUGH       0.35  /* N: experiment 2's lower intensity */
 
 typedef struct explorer {
     knurl_scene *scene;
     knurl_surface_id surfaces[2];
     uint64_t contacts[2]; /* ticks */
     int32_t wanted;       /* simulated: the side that is stroked; -1: both, before the question may be put */
-    uint32_t reserved;
+    uint32_t scan_ticks;
+    const exp_trial *trial;
+    knurl_wave wave; /* of the side with a fault, in contact */
 } explorer;
 
 static void tick_scene(exp_run *run, uint64_t tick, const knurl_device_sample *sample, double force[3]) {
     explorer *e = run->user;
     knurl_tick_input input;
     knurl_tick_output output;
-    (void)tick;
     memset(&input, 0, sizeof input);
     memcpy(input.position, sample->position, sizeof input.position);
     (void)knurl_scene_tick(e->scene, 0, &input, &output); /* on an error its force is 0 */
     memcpy(force, output.device_force, sizeof output.device_force);
     for (int side = 0; side < 2; side++) {
-        e->contacts[side] += output.surface == e->surfaces[side];
+        const int touched = output.surface == e->surfaces[side];
+        const int32_t fault = touched ? e->trial->faults[side] : EXP_GOOD;
+        e->contacts[side] += (uint64_t)touched;
+        force[1] += fault == EXP_PUSH ? PUSH : fault != EXP_GOOD ? knurl_wave_value(&e->wave, tick) : 0.0;
     }
     if (e->wanted < 0 && e->contacts[0] > 0 && e->contacts[1] > 0) {
         __atomic_store_n(&run->ready, 1u, __ATOMIC_RELEASE);
     }
 }
 
-static const char *cue(uint64_t tick) {
-    return tick < SCAN_TICKS ? "explore both gratings, left and right, at various speeds" : "touch both gratings";
+static const char *cue(uint64_t tick, void *user) {
+    const explorer *e = user;
+    return tick < e->scan_ticks ? "explore both gratings, left and right, at various speeds" : "touch both gratings";
 }
 
 static const double upward[3] = {0.0, 1.0, 0.0};
@@ -84,8 +89,20 @@ static knurl_result configure(knurl_scene *scene, const exp_session *session) {
     hip.resolution = session->info.resolution;
     hip.max_force = session->info.max_force;
     hip.workspace = &workspace;
-    hip.protections = 0; /* S1 and S2 as printed, with all that they do above f_h/2 */
+    hip.continuous_force = session->info.continuous_force;
+    hip.heat_time = session->info.heat_time;
+    hip.viscous = session->info.viscous;
+    hip.delay = session->info.delay;
+    hip.max_stiffness = session->info.max_stiffness;
+    hip.protections = session->design->protections;
     return knurl_scene_configure_hip(scene, 0, &hip);
+}
+
+/* A fault's vibration: 20 Hz at any speed, as strong as the ridges; or 29 ms of T2, the paper's rough one. */
+static knurl_result make_fault(const exp_trial *trial, knurl_wave *wave) {
+    const int is_rough = trial->faults[0] == EXP_ROUGH || trial->faults[1] == EXP_ROUGH;
+    return is_rough ? knurl_wave_prepare(KNURL_WAVE_T2, 0.029, ROUGH, EXP_RATE, wave)
+                    : knurl_wave_prepare(KNURL_WAVE_T3, 0.050, 1e-3 * STIFFNESS * trial->amplitude, EXP_RATE, wave);
 }
 
 static knurl_result build(const exp_session *session, const exp_trial *trial, explorer *e) {
@@ -93,12 +110,13 @@ static knurl_result build(const exp_session *session, const exp_trial *trial, ex
     knurl_material_desc material;
     knurl_material_desc_init(&material, sizeof material);
     material.stiffness = STIFFNESS;
-    material.amplitude = 1e-3 * trial->amplitude;
     material.spatial_frequency[0] = 1e3 / trial->period;
-    knurl_result result = knurl_scene_create(NULL, &e->scene);
+    knurl_result result = make_fault(trial, &e->wave);
+    result = result ? result : knurl_scene_create(NULL, &e->scene);
     for (int side = 0; side < 2 && !result; side++) {
         const double centre[3] = {(side ? 1.0 : -1.0) * (GAP + HALF_WIDTH), 0.0, 0.0};
         material.method = trial->methods[side];
+        material.amplitude = trial->faults[side] == EXP_STEADY ? 0.0 : 1e-3 * trial->amplitude;
         result = add_plane(e->scene, centre, half, upward, &material, &e->surfaces[side]);
     }
     result = result ? result : add_wall(e->scene);
@@ -129,12 +147,14 @@ static int explore(const exp_session *session, const exp_trial *trial, int side,
     memset(&outcome, 0, sizeof outcome);
     memset(&counts, 0, sizeof counts);
     e.wanted = side;
+    e.trial = trial;
+    e.scan_ticks = session->design->scan_ticks;
     run.force = tick_scene;
     run.cue = cue;
     run.question = "Which one is better? 1 the left, 2 the right: ";
-    run.user = &e;
-    run.question_tick = SCAN_TICKS;
-    run.end_tick = side < 0 ? SCAN_TICKS : SCAN_TICKS / 2;
+    run.cue_user = run.user = &e;
+    run.question_tick = e.scan_ticks;
+    run.end_tick = side < 0 ? e.scan_ticks : e.scan_ticks / 2;
     int code = TOOL_OK;
     if (build(session, trial, &e) || (side >= 0 && stroke(session, trial, side))) {
         code = tool_error(TOOL_FAILURE, "%s", knurl_error_message());
@@ -146,6 +166,8 @@ static int explore(const exp_session *session, const exp_trial *trial, int side,
         (void)knurl_scene_get_tick(e.scene, 0, NULL, &counts);
     }
     sum->chosen = outcome.chosen;
+    sum->stopped |= outcome.stopped;
+    sum->softer_ticks += counts.passivity_ticks;
     sum->rt_s += outcome.rt_s;
     sum->ticks += outcome.ticks;
     sum->overruns += outcome.overruns;
@@ -163,7 +185,7 @@ int exp_play_gratings(const exp_session *session, const exp_trial *trial, exp_ou
         return explore(session, trial, -1, outcome);
     }
     if (session->answers != EXP_SIMULATED) {
-        return tool_error(TOOL_FAILURE, "experiment 3: nobody moves the fake device; it goes with --answers simulated");
+        return tool_error(TOOL_FAILURE, "nobody moves the fake device over gratings; it goes with --answers simulated");
     }
     const int code = explore(session, trial, 0, outcome);
     return code ? code : explore(session, trial, 1, outcome);

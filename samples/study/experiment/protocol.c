@@ -1,19 +1,59 @@
-/* The paper's design: cells, neighbours, order. SPDX-License-Identifier: MIT */
+/* The design: cells, neighbours, order. SPDX-License-Identifier: MIT */
 #include "experiment.h"
 
 #include <string.h>
+
+#define EXP_3_TICKS   60000 /* at least one minute a pair (IV-C4) */
+#define COMPARE_TICKS 30000 /* a pair; each comes four times */
 
 /* Section IV-A3: the odd periods within 43.1-500 Hz, and 400 Hz. */
 static const double temporal_periods[] = {23, 21, 19, 17, 15, 13, 11, 9, 7, 5, 3, 2.5};
 static const double spatial_periods[] = {0.5, 1, 2};
 
 static const exp_design designs[] = {
-    {1, {KNURL_WAVE_T1, KNURL_WAVE_T3}, {"T1", "T3"}, temporal_periods, 12, {1.05, 2.10}, 3, 48, "ms", "N"},
-    {2, {KNURL_WAVE_T2, KNURL_WAVE_T3}, {"T2", "T3"}, temporal_periods, 12, {0.35, 0.70}, 3, 48, "ms", "N"},
-    {3, {KNURL_METHOD_S1, KNURL_METHOD_S2}, {"S1", "S2"}, spatial_periods, 3, {0.27, 2.7}, 1, 3, "mm", "mm"}};
+    {1, {KNURL_WAVE_T1, KNURL_WAVE_T3}, {"T1", "T3"}, temporal_periods, 12, {1.05, 2.10}, 3, 48, "ms", "N", 0, 0},
+    {2, {KNURL_WAVE_T2, KNURL_WAVE_T3}, {"T2", "T3"}, temporal_periods, 12, {0.35, 0.70}, 3, 48, "ms", "N", 0, 0},
+    {3,
+     {KNURL_METHOD_S1, KNURL_METHOD_S2},
+     {"S1", "S2"},
+     spatial_periods,
+     3,
+     {0.27, 2.7},
+     1,
+     3,
+     "mm",
+     "mm",
+     EXP_3_TICKS,
+     0}};
 
 const exp_design *exp_design_of(int32_t experiment) {
     return experiment >= 1 && experiment <= 3 ? &designs[experiment - 1] : NULL;
+}
+
+int exp_compare(int32_t one, int32_t other, exp_design *design) {
+    const int32_t first = one < other ? one : other;
+    const int32_t second = one < other ? other : one;
+    const exp_design compare = {EXP_COMPARE,
+                                {first, second},
+                                {knurl_method_name(first), knurl_method_name(second)},
+                                spatial_periods,
+                                3,
+                                {0.27, 2.7},
+                                4,
+                                6,
+                                "mm",
+                                "mm",
+                                COMPARE_TICKS,
+                                KNURL_PROTECT_ALL};
+    if (one == other) {
+        return tool_error(TOOL_USAGE, "compare: expected two methods, found '%s' twice", compare.names[0]);
+    }
+    *design = compare;
+    return TOOL_OK;
+}
+
+int exp_has_gratings(const exp_design *design) {
+    return design->scan_ticks > 0;
 }
 
 void exp_neighbours(double medium_ms, double out[3]) {
@@ -40,7 +80,7 @@ double exp_random(uint64_t *state) {
     return (double)(next(state) >> 11) / 9007199254740992.0;
 }
 
-static void shuffle(uint32_t *items, uint32_t count, uint64_t *state) {
+void exp_shuffle(uint32_t *items, uint32_t count, uint64_t *state) {
     for (uint32_t i = count; i > 1; i--) {
         const uint32_t j = (uint32_t)(exp_random(state) * i);
         const uint32_t kept = items[i - 1];
@@ -53,11 +93,11 @@ static void number_and_shuffle(uint32_t *items, uint32_t count, uint64_t *state)
     for (uint32_t i = 0; i < count; i++) {
         items[i] = i;
     }
-    shuffle(items, count, state);
+    exp_shuffle(items, count, state);
 }
 
-/* One intensity's trials in one block: every period once, in random order; our method first in half of them, drawn
- * apart from the periods; where their number is odd, chance has the last one. */
+/* One intensity's trials in one block: every period once, in random order; the second method first in half of them,
+ * drawn apart from the periods; if their number is odd, chance has the last one. */
 static void plan_pairing(const exp_design *design, uint32_t block, double amplitude, uint64_t *state,
                          exp_trial *trials) {
     uint32_t periods[EXP_PERIODS];
@@ -67,27 +107,47 @@ static void plan_pairing(const exp_design *design, uint32_t block, double amplit
     number_and_shuffle(orders, count, state);
     const uint32_t extra = exp_random(state) < 0.5 ? 0 : count % 2;
     for (uint32_t i = 0; i < count; i++) {
-        const int ours_first = orders[i] < count / 2 + extra;
+        const int second_first = orders[i] < count / 2 + extra;
         trials[i].block = block;
         trials[i].period = design->periods[periods[i]];
         trials[i].amplitude = amplitude;
-        trials[i].methods[0] = design->methods[ours_first];
-        trials[i].methods[1] = design->methods[!ours_first];
+        trials[i].methods[0] = design->methods[second_first];
+        trials[i].methods[1] = design->methods[!second_first];
     }
 }
 
-uint32_t exp_plan(const exp_design *design, uint64_t seed, int reduced, exp_trial trials[EXP_MAX_TRIALS]) {
+/* Each cell of this block in the opposite order to the block before. */
+static void mirror(const exp_trial *before, exp_trial *trials, uint32_t count) {
+    for (uint32_t i = 0; i < count; i++) {
+        for (uint32_t k = 0; k < count; k++) {
+            if (before[k].period == trials[i].period) {
+                trials[i].methods[0] = before[k].methods[1];
+                trials[i].methods[1] = before[k].methods[0];
+            }
+        }
+    }
+}
+
+uint32_t exp_plan(const exp_design *design, uint64_t seed, int reduced, int training,
+                  exp_trial trials[EXP_MAX_TRIALS]) {
     uint64_t state = seed + 0x100000000u * (uint64_t)design->experiment;
     uint32_t count = 0;
     memset(trials, 0, EXP_MAX_TRIALS * sizeof *trials);
+    if (training) {
+        exp_plan_training(design, seed, design->amplitudes[reduced ? 0 : 1], trials);
+        count = EXP_TRAINING;
+    }
     for (uint32_t block = 1; block <= design->blocks; block++) {
         uint32_t levels[2];
         number_and_shuffle(levels, 2, &state);
         for (uint32_t i = 0; i < 2; i++) {
-            if (design->experiment == 3 && levels[i] != (reduced ? 0u : 1u)) {
+            if (exp_has_gratings(design) && levels[i] != (reduced ? 0u : 1u)) {
                 continue;
             }
             plan_pairing(design, block, design->amplitudes[levels[i]], &state, trials + count);
+            if (design->experiment == EXP_COMPARE && block % 2 == 0) {
+                mirror(trials + count - design->period_count, trials + count, design->period_count);
+            }
             count += design->period_count;
         }
     }

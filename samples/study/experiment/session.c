@@ -4,7 +4,20 @@
 #include "out.h"
 #include "say.h"
 
+#include <stdlib.h>
 #include <string.h>
+
+#define BREAK_TICKS 60000 /* a minute after each block */
+
+/* A session, and the rows of its file: the text of those that were there before, and the outcomes of those from `first`
+ * on. */
+typedef struct session_rows {
+    const exp_session *session;
+    exp_trial *trials;
+    exp_outcome *outcomes;
+    uint32_t first;
+    char *text; /* null: none were there */
+} session_rows;
 
 /* What a session adds up to, for its last lines. */
 typedef struct totals {
@@ -30,22 +43,106 @@ static void show_trial(uint32_t number, uint32_t count, const exp_session *sessi
     }
 }
 
-static int play(const exp_session *session, const exp_trial *trials, uint32_t count, FILE *stream, totals *sum) {
-    uint64_t noise = ~session->seed; /* not the row of numbers that the order came from */
+static const char *cue_rest(uint64_t tick, void *user) {
+    (void)tick;
+    return *(const uint64_t *)user > 0 ? "a break of at least a minute: let go of the stylus" : "";
+}
+
+static void no_force(exp_run *run, uint64_t tick, const knurl_device_sample *sample, double force[3]) {
+    (void)run;
+    (void)tick;
+    (void)sample;
+    (void)force;
+}
+
+int exp_rest(const exp_session *session, int is_break, int *stopped) {
+    exp_run run;
+    exp_outcome outcome;
     int code = TOOL_OK;
-    for (uint32_t i = 0; i < count && code == TOOL_OK; i++) {
-        exp_outcome outcome;
+    memset(&run, 0, sizeof run);
+    memset(&outcome, 0, sizeof outcome);
+    run.force = no_force;
+    run.cue = cue_rest;
+    run.cue_user = &run.question_tick;
+    run.ready = 1;
+    run.question = "Rest as long as you like. 1 goes on, 2 stops here for today: ";
+    run.question_tick = is_break ? BREAK_TICKS : 0;
+    do {
+        run.stopped = run.pressed = run.asking = 0;
+        code = exp_drive(session, &run, &outcome);
+    } while (code == TOOL_OK && outcome.stopped); /* both buttons are no answer */
+    *stopped = code == TOOL_OK && outcome.chosen == 1;
+    return code;
+}
+
+/* All rows so far, to a file that takes the old one's place. */
+static int save(const session_rows *s, uint32_t count) {
+    out_file file;
+    if (out_open(&file, s->session->out)) {
+        return TOOL_FAILURE;
+    }
+    if (s->text) {
+        fputs(s->text, file.stream);
+    } else {
+        fprintf(file.stream, "%s\n", exp_csv_header);
+    }
+    for (uint32_t i = s->first; i < count; i++) {
+        exp_write_record(file.stream, s->session, i + 1, &s->trials[i], &s->outcomes[i]);
+    }
+    return out_update(&file, s->session->answers != EXP_SIMULATED) ? TOOL_FAILURE : TOOL_OK;
+}
+
+/* Before anybody has answered: the file can be made. */
+static int try_to_write(const char *path) {
+    out_file file;
+    const int code = out_open(&file, path) ? TOOL_FAILURE : TOOL_OK;
+    if (code == TOOL_OK) {
+        out_discard(&file);
+    }
+    return code;
+}
+
+/* One trial to its answer; one that the subject stops is played again after a rest. *stopped: as exp_rest() has it. */
+static int play_trial(const exp_session *session, const exp_trial *trial, uint32_t number, exp_outcome *outcome,
+                      int *stopped) {
+    uint64_t noise = ~session->seed + 0x9e3779b97f4a7c15u * number; /* the same answers however often it is resumed */
+    uint32_t restarts = 0;
+    int code = TOOL_OK;
+    do {
+        code = exp_has_gratings(session->design) ? exp_play_gratings(session, trial, outcome)
+                                                 : exp_play_temporal(session, trial, outcome);
+        if (code == TOOL_OK && outcome->stopped) {
+            restarts++;
+            say(stderr, "Stopped: no force. This trial begins anew.\n");
+            code = exp_rest(session, 0, stopped);
+        }
+    } while (code == TOOL_OK && outcome->stopped && !*stopped);
+    outcome->restarts += restarts;
+    if (session->answers == EXP_SIMULATED) {
+        outcome->chosen = exp_simulated_answer(session->design, trial, &noise);
+        outcome->rt_s = 0.0;
+    }
+    return code;
+}
+
+static int play(session_rows *s, uint32_t count, totals *sum, int *stopped) {
+    const exp_session *session = s->session;
+    int code = TOOL_OK;
+    for (uint32_t i = s->first; i < count && code == TOOL_OK && !*stopped; i++) {
+        if (i == 0 && session->training) {
+            code = exp_demonstrate(session, stopped);
+        }
+        if (session->answers != EXP_SIMULATED && code == TOOL_OK && !*stopped) {
+            code = exp_rest(session, i > s->first && s->trials[i].block != s->trials[i - 1].block, stopped);
+        }
+        if (code != TOOL_OK || *stopped) {
+            break;
+        }
         show_trial(i + 1, count, session);
-        code = session->design->experiment == 3 ? exp_play_gratings(session, &trials[i], &outcome)
-                                                : exp_play_temporal(session, &trials[i], &outcome);
-        if (code == TOOL_OK) {
-            if (session->answers == EXP_SIMULATED) {
-                outcome.chosen = exp_simulated_answer(session->design, &trials[i], &noise);
-                outcome.rt_s = 0.0;
-            }
-            exp_write_record(stream, session, i + 1, &trials[i], &outcome);
-            (void)fflush(stream); /* what a person has answered outlives a power cut, in the temporary file */
-            add(sum, &outcome);
+        code = play_trial(session, &s->trials[i], i + 1, &s->outcomes[i], stopped);
+        code = code || *stopped ? code : save(s, i + 1);
+        if (code == TOOL_OK && !*stopped) {
+            add(sum, &s->outcomes[i]);
         }
     }
     return code;
@@ -61,7 +158,7 @@ static void report(const exp_session *session, const totals *t) {
         (unsigned long long)session->seed, (unsigned)t->trials, (double)t->ticks / EXP_RATE, session->info.name);
     printf("force above the device's %.3g N: %llu ticks in %u trials, shortened to it\n", session->info.max_force,
            (unsigned long long)t->force_limit_ticks, (unsigned)t->force_limit_trials);
-    if (d->experiment == 3) {
+    if (exp_has_gratings(d)) {
         printf("temporal frequency above half the update rate: %llu ticks\n",
                (unsigned long long)t->above_nyquist_ticks);
     }
@@ -69,38 +166,34 @@ static void report(const exp_session *session, const totals *t) {
     say(stdout, "written: %s\n", session->out);
 }
 
-/* The file is not kept; what people answered stays beside it. */
-static void abandon(const exp_session *session, out_file *file, const totals *t) {
-    if (session->answers != EXP_SIMULATED && t->trials > 0 && file->partial) {
-        tool_tell("note", "what was answered (trials: %u) is in %s", (unsigned)t->trials, file->partial);
-        out_leave(file);
+/* It ended early: what is answered is in the file. */
+static void tell_rest(const session_rows *s, const totals *t, uint32_t count) {
+    const uint32_t done = s->first + t->trials;
+    if (done > 0 && done < count) {
+        tool_tell("note", "%s has %u of %u trials; the same command goes on with the next", s->session->out,
+                  (unsigned)done, (unsigned)count);
     }
-    out_discard(file);
 }
 
 int exp_run_session(exp_session *session) {
     exp_trial trials[EXP_MAX_TRIALS];
+    exp_outcome outcomes[EXP_MAX_TRIALS];
     totals sum;
-    out_file file;
-    const uint32_t count = exp_plan(session->design, session->seed, session->reduced, trials);
+    session_rows s = {session, trials, outcomes, 0, NULL};
+    const uint32_t count = exp_plan(session->design, session->seed, session->reduced, session->training, trials);
+    int stopped = 0;
     memset(&sum, 0, sizeof sum);
-    if (!exp_may_replace(session->out)) {
-        return tool_error(TOOL_FAILURE,
-                          "%s: is there already and not a file of simulated answers; choose another --out or --subject",
-                          session->out);
+    int code = exp_resume(session, trials, count, &s.first, &s.text);
+    if (code == TOOL_OK && s.first > 0) {
+        tool_tell("note", "going on with trial %u of %u of %s", (unsigned)s.first + 1, (unsigned)count, session->out);
     }
-    if (out_open(&file, session->out)) {
-        return TOOL_FAILURE;
-    }
-    fprintf(file.stream, "%s\n", exp_csv_header);
-    int code = play(session, trials, count, file.stream, &sum);
-    if (code == TOOL_OK) {
-        code = out_keep(&file) ? TOOL_FAILURE : TOOL_OK;
-    } else {
-        abandon(session, &file, &sum);
-    }
-    if (code == TOOL_OK) {
+    code = code ? code : try_to_write(session->out);
+    code = code ? code : play(&s, count, &sum, &stopped);
+    free(s.text);
+    if (code == TOOL_OK && !stopped) {
         report(session, &sum);
+    } else {
+        tell_rest(&s, &sum, count);
     }
-    return code;
+    return code ? code : stopped ? TOOL_FAILURE : TOOL_OK;
 }

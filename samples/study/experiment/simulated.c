@@ -2,12 +2,19 @@
  * SPDX-License-Identifier: MIT */
 #include "experiment.h"
 
+#include "grating_metrics.h"
 #include "metrics.h"
 
 #include <math.h>
+#include <string.h>
 
 /* How uncertain it is: badness at which it is right 73 % of the time. Chosen, not fitted to anyone. */
 #define UNCERTAINTY 0.1
+
+#define SCAN_TICKS 1000
+#define SPEEDS     20
+#define TOLERANCE  0.2 /* Weber fraction of Israr and Tan */
+#define PUSH_S     0.1
 
 double exp_badness(int32_t method, double period_ms, double amplitude) {
     knurl_wave wave;
@@ -22,39 +29,74 @@ double exp_badness(int32_t method, double period_ms, double amplitude) {
     return badness;
 }
 
-/* Experiments 1 and 2: the progression's mean. */
-static double progression_badness(int32_t method, const exp_trial *trial) {
+double exp_progression_badness(int32_t method, double medium_ms, double amplitude) {
     double periods[3];
     double sum = 0.0;
-    exp_neighbours(trial->period, periods);
+    exp_neighbours(medium_ms, periods);
     for (int i = 0; i < 3; i++) {
-        sum += exp_badness(method, periods[i], trial->amplitude);
+        sum += exp_badness(method, periods[i], amplitude);
     }
     return sum / 3.0;
 }
 
-/* Experiment 3, the paper's own reading of it (IV-C6): S1 is T1 and S2 is T3 at the frequencies that speeds up to
- * 250 mm/s make; the mean over speeds. T3 is judged at the period that it plays. */
-static double grating_badness(int32_t method, const exp_trial *trial, double stiffness_n_per_mm) {
-    double sum = 0.0;
-    int count = 0;
-    for (int speed = 10; speed <= 250; speed += 10, count++) { /* mm/s */
-        double period = 1e3 * trial->period / speed;
-        if (method == KNURL_METHOD_S2) {
-            period = period < 2.25 ? 2.0 : period <= 2.75 ? 2.5 : floor(period + 0.5);
-        }
-        sum += exp_badness(method == KNURL_METHOD_S1 ? KNURL_WAVE_T1 : KNURL_WAVE_T3, period,
-                           stiffness_n_per_mm * trial->amplitude);
+/* One steady speed (m/s) for a second. NaN without memory. */
+static double scan_badness(const knurl_grating *grating, double speed, double stiffness) {
+    static const double start[2] = {0.000137, 0.0};
+    static study_motion motion[SCAN_TICKS];
+    const double velocity[2] = {speed, 0.0};
+    const double f_t = speed * grating->spatial_frequency[0];
+    study_scan scan;
+    study_motion_line(start, velocity, EXP_RATE, motion, SCAN_TICKS);
+    if (!study_scan_run(grating, motion, SCAN_TICKS, STUDY_CROSSED_PATH, &scan)) {
+        return NAN;
     }
-    return sum / count;
+    const double spurious = study_scan_spurious(&scan, f_t, fmax(TOLERANCE, 2.5 / f_t)); /* 2 Hz: the window's width */
+    const double drift = study_scan_drift(&scan);
+    const double badness = stiffness * study_scan_push(&scan, f_t, PUSH_S) + (isnan(spurious) ? 1.0 : spurious) +
+                           (isnan(drift) ? 1.0 : fmin(1.0, fabs(drift)));
+    study_scan_free(&scan);
+    return badness;
+}
+
+double exp_grating_badness(int32_t method, double period_mm, double amplitude_mm) {
+    static struct {
+        int32_t method;
+        double period, amplitude, badness;
+    } known[16]; /* a session asks for the same few again and again */
+    static unsigned next;
+    knurl_grating grating;
+    double sum = 0.0;
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+        if (known[i].method == method && known[i].period == period_mm && known[i].amplitude == amplitude_mm) {
+            return known[i].badness;
+        }
+    }
+    memset(&grating, 0, sizeof grating);
+    grating.method = method;
+    grating.spatial_frequency[0] = 1e3 / period_mm;
+    grating.amplitude = 1e-3 * amplitude_mm;
+    grating.update_rate_hz = EXP_RATE;
+    for (int i = 1; i <= SPEEDS; i++) {
+        /* spread by the golden section: at round speeds f_t divides f_h, and S1 has no false tones */
+        sum += scan_badness(&grating, 0.01 + 0.24 * fmod(0.6180339887498949 * i, 1.0), 700.0);
+    }
+    known[next].method = method;
+    known[next].period = period_mm;
+    known[next].amplitude = amplitude_mm;
+    known[next].badness = sum / SPEEDS;
+    next = (next + 1) % (sizeof known / sizeof *known);
+    return sum / SPEEDS;
+}
+
+static double badness_of(const exp_design *design, const exp_trial *trial, int side) {
+    return exp_has_gratings(design) ? exp_grating_badness(trial->methods[side], trial->period, trial->amplitude)
+                                    : exp_progression_badness(trial->methods[side], trial->period, trial->amplitude);
 }
 
 int32_t exp_simulated_answer(const exp_design *design, const exp_trial *trial, uint64_t *state) {
-    double badness[2];
-    for (int i = 0; i < 2; i++) {
-        badness[i] = design->experiment == 3 ? grating_badness(trial->methods[i], trial, 0.7)
-                                             : progression_badness(trial->methods[i], trial);
-    }
     const double u = fmin(fmax(exp_random(state), 1e-12), 1.0 - 1e-12);
-    return badness[0] - badness[1] + UNCERTAINTY * log(u / (1.0 - u)) > 0.0 ? 1 : 0;
+    if (trial->block == 0) {
+        return exp_is_right(design, trial, 1);
+    }
+    return badness_of(design, trial, 0) - badness_of(design, trial, 1) + UNCERTAINTY * log(u / (1.0 - u)) > 0.0 ? 1 : 0;
 }

@@ -2,18 +2,23 @@
  * SPDX-License-Identifier: MIT */
 #include "experiment.h"
 
-int exp_stimulus_init(const exp_trial *trial, exp_stimulus *stimulus) {
-    double periods[3];
-    exp_neighbours(trial->period, periods);
-    for (int which = 0; which < 2; which++) {
-        for (int i = 0; i < 3; i++) {
-            if (knurl_wave_prepare(trial->methods[which], 1e-3 * periods[i], trial->amplitude, EXP_RATE,
-                                   &stimulus->waves[which][i])) {
-                return tool_error(TOOL_FAILURE, "%s", knurl_error_message());
-            }
+#include <string.h>
+
+int exp_progression(int32_t method, const double periods_ms[3], double amplitude, knurl_wave waves[3]) {
+    for (int i = 0; i < 3; i++) {
+        if (knurl_wave_prepare(method, 1e-3 * periods_ms[i], amplitude, EXP_RATE, &waves[i])) {
+            return tool_error(TOOL_FAILURE, "%s", knurl_error_message());
         }
     }
     return TOOL_OK;
+}
+
+int exp_stimulus_init(const exp_trial *trial, exp_stimulus *stimulus) {
+    double periods[3];
+    memset(stimulus, 0, sizeof *stimulus);
+    exp_neighbours(trial->period, periods);
+    const int code = exp_progression(trial->methods[0], periods, trial->amplitude, stimulus->waves[0]);
+    return code ? code : exp_progression(trial->methods[1], periods, trial->amplitude, stimulus->waves[1]);
 }
 
 double exp_stimulus_force(const exp_stimulus *stimulus, uint64_t tick) {
@@ -23,5 +28,6 @@ double exp_stimulus_force(const exp_stimulus *stimulus, uint64_t tick) {
     if (tick >= EXP_TRIAL_TICKS || within >= EXP_PROGRESSION || within % step >= EXP_VIBRATION_TICKS) {
         return 0.0;
     }
-    return knurl_wave_value(&stimulus->waves[tick / each][within / step], within % step);
+    return knurl_wave_value(&stimulus->waves[tick / each][within / step], within % step) +
+           (within / step == 1 ? stimulus->push[tick / each] : 0.0);
 }

@@ -13,7 +13,9 @@
 #define QUESTION_TICKS (LEAD_TICKS + EXP_TRIAL_TICKS)
 
 typedef struct player {
-    exp_stimulus stimulus;
+    const exp_stimulus *stimulus;
+    const char *(*cue)(uint64_t tick, void *cue_user);
+    void *cue_user;
     double max_force;
     double centre[3]; /* of the sphere: where the hand is when the first vibration begins */
     uint64_t force_limit_ticks;
@@ -35,22 +37,24 @@ static void play(exp_run *run, uint64_t tick, const knurl_device_sample *sample,
         __atomic_store_n(&run->left, 1u, __ATOMIC_RELEASE);
     }
     if (!__atomic_load_n(&run->left, __ATOMIC_RELAXED)) {
-        force[1] = exp_stimulus_force(&p->stimulus, tick - LEAD_TICKS);
+        force[1] = exp_stimulus_force(p->stimulus, tick - LEAD_TICKS);
         p->force_limit_ticks += fabs(force[1]) > p->max_force;
     }
 }
 
-static const char *cue(uint64_t tick) {
-    const uint64_t t = tick - LEAD_TICKS;
-    if (tick < LEAD_TICKS) {
-        return "hold still";
-    }
+static const char *cue_trial(uint64_t t, void *user) {
+    (void)user;
     if (t < EXP_PROGRESSION) {
         return "first (blue)";
     }
     return t < EXP_PROGRESSION + EXP_BETWEEN_TICKS ? "..." : t < EXP_TRIAL_TICKS ? "second (green)" : "";
 }
 
+/* What is said during the progressions, and before. */
+static const char *cue(uint64_t tick, void *user) {
+    const player *p = user;
+    return tick < LEAD_TICKS ? "hold still" : p->cue(tick - LEAD_TICKS, p->cue_user);
+}
 /* On the fake device a hand that stands still. */
 static int hold(const exp_session *session) {
     knurl_stroke_desc stroke;
@@ -62,7 +66,8 @@ static int hold(const exp_session *session) {
     return TOOL_OK;
 }
 
-int exp_play_temporal(const exp_session *session, const exp_trial *trial, exp_outcome *outcome) {
+int exp_play_stimulus(const exp_session *session, const exp_stimulus *stimulus, const char *(*words)(uint64_t, void *),
+                      void *user, const char *question, exp_outcome *outcome) {
     player p;
     exp_run run;
     uint32_t restarts = 0;
@@ -71,26 +76,38 @@ int exp_play_temporal(const exp_session *session, const exp_trial *trial, exp_ou
         memset(&p, 0, sizeof p);
         memset(&run, 0, sizeof run);
         memset(outcome, 0, sizeof *outcome);
+        p.stimulus = stimulus;
+        p.cue = words;
+        p.cue_user = user;
         p.max_force = session->info.max_force;
         run.force = play;
         run.cue = cue;
-        run.question = "Which was the better progression from low to high frequency? 1 the first, 2 the second: ";
-        run.user = &p;
+        run.cue_user = run.user = &p;
+        run.question = question;
         run.ready = 1;
         run.question_tick = QUESTION_TICKS;
         run.end_tick = QUESTION_TICKS + 1; /* the loop's ramp at the end begins from no force */
-        code = code ? code : exp_stimulus_init(trial, &p.stimulus);
         code = code ? code : exp_drive(session, &run, outcome);
         outcome->force_limit_ticks = p.force_limit_ticks;
         outcome->restarts = restarts;
         if (code == TOOL_OK && run.left && session->answers != EXP_SIMULATED) {
-            say(stderr, "The hand left the sphere: the trial begins anew.\n");
+            say(stderr, "The hand left the sphere: this begins anew.\n");
         }
         restarts += code == TOOL_OK && run.left;
         if (session->answers == EXP_SIMULATED && restarts > FORGIVEN) {
             return tool_error(TOOL_FAILURE, "the simulated hand left the sphere %u times; it is too soft to hold still",
                               (unsigned)restarts);
         }
-    } while (code == TOOL_OK && run.left);
+    } while (code == TOOL_OK && run.left && !run.stopped);
     return code;
+}
+
+int exp_play_temporal(const exp_session *session, const exp_trial *trial, exp_outcome *outcome) {
+    exp_stimulus stimulus;
+    const int code = exp_stimulus_init(trial, &stimulus);
+    return code ? code
+                : exp_play_stimulus(
+                      session, &stimulus, cue_trial, NULL,
+                      "Which was the better progression from low to high frequency? 1 the first, 2 the second: ",
+                      outcome);
 }
