@@ -32,19 +32,19 @@ void assert_limit(const knurl_gltf_options &budget, const char *message) {
 TEST(each_limit_is_told_by_its_name) {
     knurl_gltf_options budget = empty_budget();
     budget.max_surfaces = 2;
-    assert_limit(budget, "budget.max_surfaces: expected at most 2 tagged surfaces, found 3");
+    assert_limit(budget, "options.max_surfaces: expected at most 2, found 3");
     budget = empty_budget();
     budget.max_bytes = 500;
-    assert_limit(budget, "budget.max_bytes: expected at most 500, found ");
+    assert_limit(budget, "options.max_bytes: expected at most 500, found ");
     budget = empty_budget();
     budget.max_vertices = 23; // 4 positions and 4 uvs, three times
-    assert_limit(budget, "node 2, mesh 0, primitive 0: budget.max_vertices: expected at most 23, found 24");
+    assert_limit(budget, "node 2, mesh 0, primitive 0: options.max_vertices: expected at most 23, found 24");
     budget = empty_budget();
     budget.max_triangles = 5;
-    assert_limit(budget, "node 2, mesh 0, primitive 0: budget.max_triangles: expected at most 5, found 6");
+    assert_limit(budget, "node 2, mesh 0, primitive 0: options.max_triangles: expected at most 5, found 6");
     budget = empty_budget();
     budget.max_seconds = 1e-9;
-    assert_limit(budget, "budget.max_seconds: expected at most");
+    assert_limit(budget, "options.max_seconds: expected at most");
 }
 
 TEST(what_just_fits_loads) {
@@ -68,10 +68,10 @@ TEST(budgets_out_of_their_ranges_are_refused) {
     };
     knurl_gltf_options budget = empty_budget();
     budget.max_bytes = (uint64_t{1} << 30U) + 1;
-    refuses(budget, "budget.max_bytes: expected 0 to 1073741824");
+    refuses(budget, "options.max_bytes: expected 0 to 1073741824");
     budget = empty_budget();
     budget.max_seconds = std::nan("");
-    refuses(budget, "budget.max_seconds: expected >= 0");
+    refuses(budget, "options.max_seconds: expected >= 0");
     budget = empty_budget();
     budget.struct_size = 0;
     refuses(budget, "knurl_gltf_options.struct_size");

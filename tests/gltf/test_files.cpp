@@ -94,7 +94,7 @@ TEST(names_and_kinds_of_files) {
     folder.write("big.glb", "glTF");
     fs::resize_file(folder.root / "big.glb", (uint64_t{1} << 30U) + 1); // a hole: it takes no space
     assert_file_fails(folder.path("big.glb"), KNURL_ERROR_FULL,
-                      {"budget.max_bytes: expected at most 1073741824, found 1073741825"});
+                      {"options.max_bytes: expected at most 1073741824, found 1073741825"});
 }
 
 TEST(arguments_are_checked) {
@@ -109,7 +109,7 @@ TEST(arguments_are_checked) {
                      KNURL_ERROR_FORMAT);
     assert_int_equal(knurl_gltf_load_memory(loaded.scene, "", uint64_t{1} << 31U, "m", nullptr, nullptr, nullptr),
                      KNURL_ERROR_FULL);
-    assert_message("m", {"budget.max_bytes"});
+    assert_message("m", {"options.max_bytes"});
     const std::string bytes = quad().glb();
     loaded.report.struct_size = 0;
     assert_int_equal(loaded.load(bytes), KNURL_ERROR_ARGUMENT);

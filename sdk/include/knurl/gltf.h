@@ -12,7 +12,7 @@ extern "C" {
 
 /** The options of a load. Limits: 0 in a field is its default. They are checked before memory is taken, so that a small
  * file that asks for much fails at once: KNURL_ERROR_FULL, with a message that names the file and the limit
- * ("budget.max_bytes"). */
+ * ("options.max_bytes"). */
 typedef struct knurl_gltf_options {
     uint32_t struct_size;   /**< set by knurl_gltf_options_init() */
     uint32_t max_surfaces;  /**< default 2^16; at most 2^20. The scene's max_surfaces applies too */

@@ -35,10 +35,9 @@ T value_at(const unsigned char *at) {
 /// filter.cpp limits all numbers to 2^31.
 void locate(const Model &model, int view_index, size_t offset, bool strided, Elements &elements,
             const std::string &where) {
-    const tinygltf::BufferView &view = model.filtered.views.at(static_cast<size_t>(view_index));
-    const Bytes &bytes = model.buffers.at(static_cast<size_t>(view.buffer));
-    const std::string view_label =
-        "bufferView " + std::to_string(model.filtered.view_numbers.at(static_cast<size_t>(view_index)));
+    const tinygltf::BufferView &view = model.filtered.views.at(view_index);
+    const Bytes &bytes = model.buffers.at(view.buffer);
+    const std::string view_label = "bufferView " + std::to_string(view_index);
     if (uint64_t{view.byteOffset} + view.byteLength > bytes.size)
         refuse(where, view_label + " ends at byte " + std::to_string(uint64_t{view.byteOffset} + view.byteLength) +
                           " of a buffer of " + std::to_string(bytes.size) + " bytes");
@@ -119,16 +118,19 @@ void element_to_floats(const Elements &elements, size_t i, float *out) {
     }
 }
 
-/// Calls put(i, values, j) for each sparse element: element i of the accessor is values' element j.
-template <typename Put>
-void for_each_sparse(const Model &model, const tinygltf::Accessor &accessor, const Elements &like,
-                     const std::string &where, const Put &put) {
+/// Reads all elements, the sparse ones over the others: copy(elements, i, to) converts element i.
+template <typename T, typename Copy>
+std::vector<T> read_elements(const Model &model, const tinygltf::Accessor &accessor, const Elements &elements,
+                             const std::string &where, const Copy &copy) {
+    std::vector<T> out(elements.count * elements.components);
+    for (size_t i = 0; elements.data != nullptr && i < elements.count; ++i)
+        copy(elements, i, &out[i * elements.components]);
     if (!accessor.sparse.isSparse)
-        return;
+        return out;
     const std::string place = where + ": sparse";
     const auto count = static_cast<size_t>(accessor.sparse.count);
-    if (count > like.count)
-        refuse(place, "count: expected at most " + std::to_string(like.count) + ", found " + std::to_string(count));
+    if (count > elements.count)
+        refuse(place, "count: expected at most " + std::to_string(elements.count) + ", found " + std::to_string(count));
     check_whole_type(accessor.sparse.indices.componentType, place + ".indices");
     Elements indices;
     indices.count = count;
@@ -136,67 +138,65 @@ void for_each_sparse(const Model &model, const tinygltf::Accessor &accessor, con
     indices.component_type = accessor.sparse.indices.componentType;
     locate(model, accessor.sparse.indices.bufferView, static_cast<size_t>(accessor.sparse.indices.byteOffset), false,
            indices, place + ".indices");
-    Elements values = like;
+    Elements values = elements;
     values.count = count;
     locate(model, accessor.sparse.values.bufferView, static_cast<size_t>(accessor.sparse.values.byteOffset), false,
            values, place + ".values");
     for (size_t j = 0; j < count; ++j) {
         const uint32_t i = whole_at(indices, j);
-        if (i >= like.count)
-            refuse(place, "index " + std::to_string(j) + ": expected below " + std::to_string(like.count) + ", found " +
-                              std::to_string(i));
-        put(size_t{i}, values, j);
+        if (i >= elements.count)
+            refuse(place, "index " + std::to_string(j) + ": expected below " + std::to_string(elements.count) +
+                              ", found " + std::to_string(i));
+        copy(values, j, &out[i * elements.components]);
     }
+    return out;
 }
+
+/// An accessor, and its name in messages.
+struct Source {
+    Source(const Model &model, int index, const std::string &where)
+        : accessor(model.filtered.accessors.at(index)), place(where + " (accessor " + std::to_string(index) + ")") {}
+
+    const tinygltf::Accessor &accessor;
+    std::string place;
+};
 
 } // namespace
 
 size_t count_elements(const Model &model, int index, size_t components, size_t most, const std::string &where) {
-    const tinygltf::Accessor &accessor = model.filtered.accessors.at(static_cast<size_t>(index));
-    const std::string place = where + " (" + model.accessor_label(index) + ")";
+    const Source source(model, index, where);
     if (components == 1)
-        check_whole_type(accessor.componentType, place);
-    const Elements elements = dense_elements(model, accessor, most, place);
+        check_whole_type(source.accessor.componentType, source.place);
+    const Elements elements = dense_elements(model, source.accessor, most, source.place);
     if (elements.components != components)
-        refuse(place, "type: expected " + (components == 1 ? "SCALAR" : "VEC" + std::to_string(components)) +
-                          ", found one of " + std::to_string(elements.components) + " components");
+        refuse(source.place, "type: expected " + (components == 1 ? "SCALAR" : "VEC" + std::to_string(components)) +
+                                 ", found one of " + std::to_string(elements.components) + " components");
     return elements.count;
 }
 
-std::vector<float> read_floats(const Model &model, int index, size_t components, const std::string &where) {
-    const tinygltf::Accessor &accessor = model.filtered.accessors.at(static_cast<size_t>(index));
-    const std::string place = where + " (" + model.accessor_label(index) + ")";
-    const Elements elements = dense_elements(model, accessor, vertices_max, place); // components: checked before
+std::vector<float> read_floats(const Model &model, int index, const std::string &where) {
+    const Source source(model, index, where);
+    const Elements elements = dense_elements(model, source.accessor, vertices_max, source.place);
     if (elements.component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
-        refuse(place, "componentType: expected 5126 (float) or integers of 8 or 16 bits, found 5125");
-    std::vector<float> out(elements.count * components);
-    if (elements.data != nullptr)
-        for (size_t i = 0; i < elements.count; ++i)
-            element_to_floats(elements, i, &out[i * components]);
-    for_each_sparse(model, accessor, elements, place, [&](size_t i, const Elements &values, size_t j) {
-        element_to_floats(values, j, &out[i * components]);
-    });
+        refuse(source.place, "componentType: expected 5126 (float) or integers of 8 or 16 bits, found 5125");
+    std::vector<float> out = read_elements<float>(model, source.accessor, elements, source.place, element_to_floats);
     for (size_t i = 0; i < out.size(); ++i)
         if (!knurl_is_finite(out[i]))
-            refuse(place, "element " + std::to_string(i / components) + ": expected finite numbers, found " +
-                              (std::isnan(out[i]) ? "NaN" : "infinity"));
+            refuse(source.place, "element " + std::to_string(i / elements.components) +
+                                     ": expected finite numbers, found " + (std::isnan(out[i]) ? "NaN" : "infinity"));
     return out;
 }
 
 std::vector<uint32_t> read_indices(const Model &model, int index, size_t vertex_count, const std::string &where) {
-    const tinygltf::Accessor &accessor = model.filtered.accessors.at(static_cast<size_t>(index));
-    const std::string place = where + " (" + model.accessor_label(index) + ")";
-    const Elements elements = dense_elements(model, accessor, 3 * triangles_max, place);
-    std::vector<uint32_t> out(elements.count);
-    if (elements.data != nullptr)
-        for (size_t i = 0; i < elements.count; ++i)
-            out[i] = whole_at(elements, i);
-    for_each_sparse(model, accessor, elements, place,
-                    [&](size_t i, const Elements &values, size_t j) { out[i] = whole_at(values, j); });
+    const Source source(model, index, where);
+    const Elements elements = dense_elements(model, source.accessor, 3 * triangles_max, source.place);
+    std::vector<uint32_t> out =
+        read_elements<uint32_t>(model, source.accessor, elements, source.place,
+                                [](const Elements &from, size_t i, uint32_t *to) { *to = whole_at(from, i); });
     for (size_t i = 0; i < out.size(); ++i)
         if (out[i] >= vertex_count)
-            refuse(place, "index " + std::to_string(i) + ": expected below " + std::to_string(vertex_count) +
-                              " (the vertices), found " + std::to_string(out[i]));
+            refuse(source.place, "index " + std::to_string(i) + ": expected below " + std::to_string(vertex_count) +
+                                     " (the vertices), found " + std::to_string(out[i]));
     return out;
 }
 

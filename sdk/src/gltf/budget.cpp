@@ -19,44 +19,49 @@ constexpr uint64_t bytes_a_triangle = 2;
 
 [[noreturn]] void refuse_excess(const std::string &where, const char *name, uint64_t most, uint64_t found) {
     refuse(where,
-           std::string("budget.") + name + ": expected at most " + std::to_string(most) + ", found " +
+           std::string("options.") + name + ": expected at most " + std::to_string(most) + ", found " +
                std::to_string(found) + " (see knurl_gltf_options)",
            KNURL_ERROR_FULL);
 }
 
-/// Returns the limit asked for (0: default); throws Failure if it is above `greatest`.
-uint64_t limit_of(uint64_t asked, uint64_t greatest, const char *name) {
+void check_limit(uint64_t asked, uint64_t greatest, const char *name) {
     if (asked > greatest)
-        throw Failure(KNURL_ERROR_ARGUMENT, std::string("budget.") + name + ": expected 0 to " +
+        throw Failure(KNURL_ERROR_ARGUMENT, std::string("options.") + name + ": expected 0 to " +
                                                 std::to_string(greatest) + ", found " + std::to_string(asked));
-    return asked;
 }
 
 } // namespace
 
-Budget::Budget(const Limits &asked, Progress progress, void *user)
-    : surfaces_(static_cast<uint32_t>(limit_of(asked.surfaces, surfaces_max, "max_surfaces"))),
-      bytes_(limit_of(asked.bytes, bytes_max, "max_bytes")),
-      vertices_(limit_of(asked.vertices, UINT64_MAX / 2, "max_vertices")),
-      triangles_(limit_of(asked.triangles, triangles_max, "max_triangles")), seconds_(asked.seconds),
-      progress_(progress), user_(user) {
-    if (!(seconds_ >= 0.0))
-        throw Failure(KNURL_ERROR_ARGUMENT, "budget.max_seconds: expected >= 0, found " + std::to_string(seconds_));
-    surfaces_ = surfaces_ != 0 ? surfaces_ : surfaces_default;
-    bytes_ = bytes_ != 0 ? bytes_ : bytes_max;
-    seconds_ = seconds_ > 0.0 ? seconds_ : seconds_default;
+Budget::Budget(const knurl_gltf_options &options) : options_(options) {
+    check_limit(options.max_surfaces, surfaces_max, "max_surfaces");
+    check_limit(options.max_bytes, bytes_max, "max_bytes");
+    check_limit(options.max_vertices, UINT64_MAX / 2, "max_vertices");
+    check_limit(options.max_triangles, triangles_max, "max_triangles");
+    if (!(options.max_seconds >= 0.0))
+        throw Failure(KNURL_ERROR_ARGUMENT,
+                      "options.max_seconds: expected >= 0, found " + std::to_string(options.max_seconds));
+    options_.max_surfaces = options.max_surfaces != 0 ? options.max_surfaces : surfaces_default;
+    options_.max_bytes = options.max_bytes != 0 ? options.max_bytes : bytes_max;
+    options_.max_seconds = options.max_seconds > 0.0 ? options.max_seconds : seconds_default;
+}
+
+void Budget::take_surfaces(uint64_t count) const {
+    if (count > options_.max_surfaces)
+        refuse_excess("", "max_surfaces", options_.max_surfaces, count);
 }
 
 void Budget::take_bytes(uint64_t count, const std::string &where) {
     bytes_taken_ += count;
-    if (bytes_taken_ > bytes_)
-        refuse_excess(where, "max_bytes", bytes_, bytes_taken_);
+    if (bytes_taken_ > options_.max_bytes)
+        refuse_excess(where, "max_bytes", options_.max_bytes, bytes_taken_);
 }
 
 void Budget::take_shape(uint64_t vertices, uint64_t triangles, const std::string &where) {
-    const uint64_t most_vertices = vertices_ != 0 ? vertices_ : vertices_default + vertices_a_byte * bytes_taken_;
-    const uint64_t most_triangles =
-        triangles_ != 0 ? triangles_ : std::min(triangles_max, triangles_default + bytes_taken_ / bytes_a_triangle);
+    const uint64_t most_vertices =
+        options_.max_vertices != 0 ? options_.max_vertices : vertices_default + vertices_a_byte * bytes_taken_;
+    const uint64_t most_triangles = options_.max_triangles != 0
+                                        ? options_.max_triangles
+                                        : std::min(triangles_max, triangles_default + bytes_taken_ / bytes_a_triangle);
     vertices_taken_ += vertices;
     triangles_taken_ += triangles;
     if (vertices_taken_ > most_vertices)
@@ -68,11 +73,17 @@ void Budget::take_shape(uint64_t vertices, uint64_t triangles, const std::string
 void Budget::step(double done) {
     done_ = std::max(done_, done);
     const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
-    if (seconds > seconds_)
-        throw Failure(KNURL_ERROR_FULL, "budget.max_seconds: expected at most " + std::to_string(seconds_) +
+    if (seconds > options_.max_seconds)
+        throw Failure(KNURL_ERROR_FULL, "options.max_seconds: expected at most " +
+                                            std::to_string(options_.max_seconds) +
                                             " s, found more (see knurl_gltf_options)");
-    if (progress_ != nullptr && progress_(user_, done_) != 0)
+    if (options_.progress != nullptr && options_.progress(options_.user, done_) != 0)
         throw Failure(KNURL_ERROR_CANCELLED, "the load was cancelled");
+}
+
+void Budget::tell_read(const std::filesystem::path &path) const {
+    if (options_.file_read != nullptr)
+        options_.file_read(options_.user, path.u8string().c_str());
 }
 
 } // namespace knurl::gltf

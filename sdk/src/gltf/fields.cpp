@@ -39,8 +39,12 @@ std::optional<Fields> Fields::object(const char *key) const {
     return Fields(*value, *this, prefix_ + key + ".");
 }
 
+Fields Fields::item(const char *key, const char *kind, size_t i) const {
+    return {array(key).at(i), kind, i};
+}
+
 Fields Fields::element(const char *key, size_t i) const {
-    return {object_->at(key).at(i), *this, prefix_ + key + "[" + std::to_string(i) + "]."};
+    return {array(key).at(i), *this, prefix_ + key + "[" + std::to_string(i) + "]."};
 }
 
 std::string Fields::where() const {
@@ -82,9 +86,9 @@ std::optional<uint32_t> Fields::index(const char *key, size_t size, const char *
 }
 
 std::vector<uint32_t> Fields::indices(const char *key, size_t size, const char *kind) const {
-    std::vector<uint32_t> all(array_size(key));
-    for (size_t i = 0; i < all.size(); ++i)
-        all[i] = index_of(object_->at(key).at(i), key + ("[" + std::to_string(i) + "]"), size, kind);
+    std::vector<uint32_t> all;
+    for (const Json &value : array(key))
+        all.push_back(index_of(value, key + ("[" + std::to_string(all.size()) + "]"), size, kind));
     return all;
 }
 
@@ -126,14 +130,15 @@ const std::string *Fields::text(const char *key) const {
     return text;
 }
 
-size_t Fields::array_size(const char *key) const {
+const Json::Array &Fields::array(const char *key) const {
+    static const Json::Array empty;
     const Json *value = find(key);
     if (value == nullptr)
-        return 0;
+        return empty;
     const Json::Array *elements = value->array();
     if (elements == nullptr)
         refuse_value(key, "an array", *value);
-    return elements->size();
+    return *elements;
 }
 
 void Fields::refuse_value(const std::string &key, const std::string &expected, const Json &found) const {

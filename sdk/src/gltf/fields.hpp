@@ -26,12 +26,11 @@ class Fields {
 
     /** The object under `key`, or empty if absent. Its keys appear in messages as "key.name". */
     std::optional<Fields> object(const char *key) const;
-    /** Object i of the array under `key`. Its keys appear in messages as "key[i].name". */
+    /** Object i of the array under `key`, of its own kind in messages: "node" 3. */
+    Fields item(const char *key, const char *kind, size_t i) const;
+    /** The same, as a part of this object. Its keys appear in messages as "key[i].name". */
     Fields element(const char *key, size_t i) const;
 
-    const Json &json() const {
-        return *object_;
-    }
     /** "material 'bars' (0)" */
     std::string where() const;
     /** The object's name, or "". */
@@ -46,8 +45,8 @@ class Fields {
     std::optional<std::vector<double>> numbers(const char *key, size_t count) const;
     std::optional<bool> flag(const char *key) const;
     const std::string *text(const char *key) const;
-    /** The length of the array under `key`; 0 if absent. */
-    size_t array_size(const char *key) const;
+    /** The array under `key`; empty if absent. */
+    const Json::Array &array(const char *key) const;
     /** Indices into an array of `size` elements; empty if absent. */
     std::vector<uint32_t> indices(const char *key, size_t size, const char *kind) const;
 

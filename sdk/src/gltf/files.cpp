@@ -48,7 +48,7 @@ struct Place {
 Place locate(const std::string &uri, const fs::path &folder) {
     const std::string decoded = percent_decoded(uri);
     const fs::path relative = fs::u8path(decoded);
-    if (has_scheme(uri) || relative.has_root_path() || decoded.find('\0') != std::string::npos)
+    if (!scheme_of(uri).empty() || relative.has_root_path() || decoded.find('\0') != std::string::npos)
         throw Failure(KNURL_ERROR_FORMAT, "expected a path relative to the glTF file, without a scheme");
     std::error_code error;
     const fs::path root = fs::canonical(folder.empty() ? fs::path(".") : folder, error);
@@ -62,42 +62,38 @@ Place locate(const std::string &uri, const fs::path &folder) {
     return {root, file};
 }
 
-std::vector<unsigned char> read_data_uri(const std::string &uri, uint64_t size) {
-    std::vector<unsigned char> bytes = data_uri_bytes(uri);
-    if (bytes.size() < size)
-        throw Failure(KNURL_ERROR_FORMAT, "expected " + std::to_string(size) + " bytes (byteLength), found " +
-                                              std::to_string(bytes.size()));
-    return bytes; // longer is allowed: padding to a multiple of 3 bytes is common
-}
-
 } // namespace
 
 std::vector<unsigned char> read_file(const fs::path &path, Budget &budget) {
     return read_regular(nullptr, path, budget, "");
 }
 
+const std::vector<unsigned char> &Sources::find(const std::string &uri, uint64_t size, const Resources &resources,
+                                                const std::string &where) {
+    if (scheme_of(uri) == "data") {
+        resources.budget->take_bytes(size, where);
+        return texts_.emplace_back(data_uri_bytes(uri));
+    }
+    if (!resources.folder)
+        throw Failure(KNURL_ERROR_IO, "an external file cannot be read, because no folder was given: embed the buffer");
+    const Place place = locate(uri, *resources.folder);
+    auto known = files_.find(place.file);
+    if (known == files_.end()) {
+        std::vector<unsigned char> bytes =
+            read_regular(&place.folder, place.file.lexically_relative(place.folder), *resources.budget, where);
+        resources.budget->tell_read(place.file);
+        known = files_.emplace(place.file, std::move(bytes)).first;
+    }
+    return known->second;
+}
+
 Bytes Sources::read(const std::string &uri, uint64_t size, const Resources &resources, const std::string &where) {
     try {
-        const auto length = static_cast<size_t>(size);
-        if (is_data_uri(uri)) {
-            resources.budget->take_bytes(size, where);
-            return {texts_.emplace_back(read_data_uri(uri, size)).data(), length};
-        }
-        if (!resources.folder)
-            throw Failure(KNURL_ERROR_IO,
-                          "an external file cannot be read, because no folder was given: embed the buffer");
-        const Place place = locate(uri, *resources.folder);
-        auto known = files_.find(place.file);
-        if (known == files_.end()) {
-            std::vector<unsigned char> bytes =
-                read_regular(&place.folder, place.file.lexically_relative(place.folder), *resources.budget, where);
-            resources.listener.tell(place.file);
-            known = files_.emplace(place.file, std::move(bytes)).first;
-        }
-        if (known->second.size() < size)
+        const std::vector<unsigned char> &bytes = find(uri, size, resources, where);
+        if (bytes.size() < size) // longer is allowed: padding is common
             throw Failure(KNURL_ERROR_FORMAT, "expected " + std::to_string(size) + " bytes (byteLength), found " +
-                                                  std::to_string(known->second.size()));
-        return {known->second.data(), length};
+                                                  std::to_string(bytes.size()));
+        return {bytes.data(), static_cast<size_t>(size)};
     } catch (const Failure &failure) {
         if (failure.code() == KNURL_ERROR_FULL || failure.code() == KNURL_ERROR_CANCELLED)
             throw; // concerns the whole load; its message is complete

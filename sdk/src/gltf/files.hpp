@@ -5,7 +5,6 @@
 
 #include "budget.hpp"
 
-#include <filesystem>
 #include <map>
 #include <optional>
 #include <vector>
@@ -21,22 +20,10 @@ struct Bytes {
 /** Reads a whole regular file; follows links to it. */
 std::vector<unsigned char> read_file(const std::filesystem::path &path, Budget &budget);
 
-/** The caller's callback for files that were read. */
-struct Listener {
-    void (*file_read)(void *user, const char *path) = nullptr;
-    void *user = nullptr;
-
-    void tell(const std::filesystem::path &path) const {
-        if (file_read != nullptr)
-            file_read(user, path.u8string().c_str());
-    }
-};
-
 /** Sources that a glTF file's buffers may use. */
 struct Resources {
     std::optional<Bytes> bin;                    ///< a .glb's BIN chunk
     std::optional<std::filesystem::path> folder; ///< external files must be in it or below; empty: refused
-    Listener listener;                           ///< called for external files
     Budget *budget = nullptr;                    ///< required
 };
 
@@ -47,6 +34,9 @@ class Sources {
     Bytes read(const std::string &uri, uint64_t size, const Resources &resources, const std::string &where);
 
   private:
+    const std::vector<unsigned char> &find(const std::string &uri, uint64_t size, const Resources &resources,
+                                           const std::string &where);
+
     std::map<std::filesystem::path, std::vector<unsigned char>> files_; ///< whole
     std::vector<std::vector<unsigned char>> texts_;                     ///< decoded data: URIs
 };

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <map>
+#include <unordered_map>
 
 namespace knurl::gltf {
 namespace {
@@ -34,88 +34,39 @@ int type_of(const Fields &accessor) {
                                                       {"VEC2", TINYGLTF_TYPE_VEC2},
                                                       {"VEC3", TINYGLTF_TYPE_VEC3},
                                                       {"VEC4", TINYGLTF_TYPE_VEC4}};
+    const std::string expected = "expected 'SCALAR', 'VEC2', 'VEC3' or 'VEC4'";
     const std::string *type = accessor.text("type");
+    if (type == nullptr)
+        accessor.refuse_key("type", "missing: " + expected);
     for (const auto &[name, value] : known)
-        if (type != nullptr && *type == name)
+        if (*type == name)
             return value;
-    accessor.refuse_key("type", "expected 'SCALAR', 'VEC2', 'VEC3' or 'VEC4', found " +
-                                    (type != nullptr ? in_quotes(*type) : "none"));
+    accessor.refuse_key("type", expected + ", found " + in_quotes(*type));
 }
-
-/// The elements kept of one of the file's arrays, in the order of their first use.
-template <typename T>
-class Kept {
-  public:
-    explicit Kept(size_t size) : size_(size) {}
-
-    size_t size() const {
-        return size_;
-    }
-    /// The place of element `number`, and true if it is new: the caller must then fill it in.
-    std::pair<uint32_t, bool> place(uint32_t number) {
-        const auto [found, fresh] = places_.emplace(number, static_cast<uint32_t>(numbers_.size()));
-        if (fresh) {
-            numbers_.push_back(number);
-            elements_.emplace_back();
-        }
-        return {found->second, fresh};
-    }
-    T &operator[](uint32_t place) {
-        return elements_[place];
-    }
-    std::vector<T> take_elements() {
-        return std::move(elements_);
-    }
-    std::vector<uint32_t> take_numbers() {
-        return std::move(numbers_);
-    }
-    std::unordered_map<uint32_t, uint32_t> take_places() {
-        return std::move(places_);
-    }
-
-  private:
-    size_t size_;
-    std::unordered_map<uint32_t, uint32_t> places_;
-    std::vector<uint32_t> numbers_;
-    std::vector<T> elements_;
-};
 
 class Filter {
   public:
-    explicit Filter(const Json &json)
-        : root_(json, "", no_index), nodes_(root_.array_size("nodes")), accessors_(root_.array_size("accessors")),
-          views_(root_.array_size("bufferViews")), buffers_(root_.array_size("buffers")) {}
+    explicit Filter(const Fields &root)
+        : root_(root), accessors_(root_.array("accessors").size()), views_(root_.array("bufferViews").size()),
+          buffers_(root_.array("buffers").size()) {}
 
     Filtered run(const Outline &outline) {
-        Filtered filtered;
         for (const Instance &instance : outline.instances) {
             for (int32_t node = static_cast<int32_t>(instance.node); node >= 0;
                  node = outline.parents[static_cast<size_t>(node)]) {
-                const auto [place, fresh] = nodes_.place(static_cast<uint32_t>(node));
+                const auto [kept, fresh] = filtered_.nodes.try_emplace(node);
                 if (!fresh)
                     break; // its ancestors are kept already
-                nodes_[place] = node_of(static_cast<uint32_t>(node));
+                kept->second = node_of(static_cast<size_t>(node));
             }
-            filtered.instance_primitives.push_back(primitive_place(instance.mesh, instance.primitive));
+            filtered_.instance_primitives.push_back(primitive_place(instance.mesh, instance.primitive));
         }
-        filtered.nodes = nodes_.take_elements();
-        filtered.node_places = nodes_.take_places();
-        filtered.primitives = std::move(primitives_);
-        filtered.accessors = accessors_.take_elements();
-        filtered.accessor_numbers = accessors_.take_numbers();
-        filtered.views = views_.take_elements();
-        filtered.view_numbers = views_.take_numbers();
-        filtered.buffers = buffers_.take_elements();
-        return filtered;
+        return std::move(filtered_);
     }
 
   private:
-    Fields at(const char *key, const char *kind, size_t i) const {
-        return {root_.json().at(key).at(i), kind, i};
-    }
-
     tinygltf::Node node_of(size_t i) const {
-        const Fields node = at("nodes", "node", i);
+        const Fields node = root_.item("nodes", "node", i);
         tinygltf::Node kept;
         kept.name = shortened(node.name());
         if (node.find("matrix") != nullptr)
@@ -134,45 +85,47 @@ class Filter {
         const auto [known, fresh] = primitive_places_.emplace(uint64_t{mesh} << 32U | primitive, 0);
         if (fresh) {
             tinygltf::Primitive made = primitive_of(mesh, primitive);
-            const auto [same, first] = same_primitives_.emplace(key_of(made), primitives_.size());
+            const auto [same, first] = same_primitives_.emplace(key_of(made), filtered_.primitives.size());
             if (first)
-                primitives_.push_back(std::move(made));
+                filtered_.primitives.push_back(std::move(made));
             known->second = static_cast<uint32_t>(same->second);
         }
         return known->second;
     }
 
     tinygltf::Primitive primitive_of(uint32_t mesh_index, uint32_t primitive_index) {
-        const Fields mesh = at("meshes", "mesh", mesh_index);
+        const Fields mesh = root_.item("meshes", "mesh", mesh_index);
         const Fields primitive = mesh.element("primitives", primitive_index);
         tinygltf::Primitive kept;
         put(kept.mode, primitive.whole("mode", 0, 6).value_or(TINYGLTF_MODE_TRIANGLES));
-        if (const auto accessor = primitive.index("indices", accessors_.size(), "accessors")) {
-            put(kept.indices, accessor_place(*accessor));
+        if (const auto accessor = primitive.index("indices", accessors_, "accessors")) {
+            put(kept.indices, keep_accessor(*accessor));
             // By the specification all indices are then zero: triangles without area.
-            if (accessors_[static_cast<uint32_t>(kept.indices)].bufferView < 0)
-                at("accessors", "accessor", *accessor).refuse_key("bufferView", "missing: expected one for indices");
+            if (filtered_.accessors.at(kept.indices).bufferView < 0)
+                root_.item("accessors", "accessor", *accessor)
+                    .refuse_key("bufferView", "missing: expected one for indices");
         }
         const std::optional<Fields> attributes = primitive.object("attributes");
         if (!attributes || attributes->find("POSITION") == nullptr)
             primitive.refuse_key("attributes.POSITION", "missing: expected an accessor in a tagged primitive");
         for (const Attribute &read : attributes_read)
-            if (const auto accessor = attributes->index(read.name, accessors_.size(), "accessors"))
-                put(kept.attributes[read.name], accessor_place(*accessor));
+            if (const auto accessor = attributes->index(read.name, accessors_, "accessors"))
+                put(kept.attributes[read.name], keep_accessor(*accessor));
         return kept;
     }
 
-    uint32_t accessor_place(uint32_t i) {
-        const auto [place, fresh] = accessors_.place(i);
+    /// Returns the accessor's number.
+    uint32_t keep_accessor(uint32_t i) {
+        const auto [kept, fresh] = filtered_.accessors.try_emplace(static_cast<int>(i));
         if (fresh)
-            accessors_[place] = accessor_of(i);
-        return place;
+            kept->second = accessor_of(i);
+        return i;
     }
 
     tinygltf::Accessor accessor_of(uint32_t i) {
-        const Fields accessor = at("accessors", "accessor", i);
+        const Fields accessor = root_.item("accessors", "accessor", i);
         tinygltf::Accessor kept;
-        put(kept.bufferView, view_place(accessor));
+        put(kept.bufferView, keep_view(accessor));
         put(kept.byteOffset, accessor.whole("byteOffset"));
         put(kept.componentType, component_type_of(accessor));
         put(kept.count, accessor.required(accessor.whole("count", 1), "count", "the number of elements"));
@@ -189,11 +142,11 @@ class Filter {
         to.isSparse = true;
         put(to.count, sparse.required(sparse.whole("count", 1), "count", "the number of replaced elements"));
         const Fields indices = sparse_part(sparse, "indices");
-        put(to.indices.bufferView, required_view_place(indices));
+        put(to.indices.bufferView, keep_required_view(indices));
         put(to.indices.byteOffset, indices.whole("byteOffset").value_or(0));
         put(to.indices.componentType, component_type_of(indices));
         const Fields values = sparse_part(sparse, "values");
-        put(to.values.bufferView, required_view_place(values));
+        put(to.values.bufferView, keep_required_view(values));
         put(to.values.byteOffset, values.whole("byteOffset").value_or(0));
     }
 
@@ -201,41 +154,36 @@ class Filter {
         return sparse.required(sparse.object(key), key, "an object");
     }
 
-    std::optional<uint32_t> view_place(const Fields &from) {
-        const auto view = from.index("bufferView", views_.size(), "bufferViews");
-        if (!view)
-            return std::nullopt;
-        const auto [place, fresh] = views_.place(*view);
-        if (fresh)
-            views_[place] = view_of(*view);
-        return place;
+    std::optional<uint32_t> keep_view(const Fields &from) {
+        const auto view = from.index("bufferView", views_, "bufferViews");
+        if (view)
+            if (const auto [kept, fresh] = filtered_.views.try_emplace(static_cast<int>(*view)); fresh)
+                kept->second = view_of(*view);
+        return view;
     }
 
-    uint32_t required_view_place(const Fields &from) {
-        return from.required(view_place(from), "bufferView", "an index");
+    uint32_t keep_required_view(const Fields &from) {
+        return from.required(keep_view(from), "bufferView", "an index");
     }
 
     tinygltf::BufferView view_of(uint32_t i) {
-        const Fields view = at("bufferViews", "bufferView", i);
+        const Fields view = root_.item("bufferViews", "bufferView", i);
         tinygltf::BufferView kept;
         const uint32_t buffer =
-            view.required(view.index("buffer", buffers_.size(), "buffers"), "buffer", "the index of a buffer");
+            view.required(view.index("buffer", buffers_, "buffers"), "buffer", "the index of a buffer");
         put(kept.byteOffset, view.whole("byteOffset"));
         put(kept.byteLength, view.required(view.whole("byteLength", 1), "byteLength", "a length in bytes"));
         put(kept.byteStride, view.whole("byteStride", 4, 252));
         if (kept.byteStride % 4 != 0)
             view.refuse_value("byteStride", "a multiple of 4", *view.find("byteStride"));
-        const auto [place, fresh] = buffers_.place(buffer);
-        put(kept.buffer, place);
-        if (fresh)
-            buffers_[place] = source_of(buffer);
+        put(kept.buffer, buffer);
+        filtered_.buffers.try_emplace(kept.buffer, source_of(buffer));
         return kept;
     }
 
     BufferSource source_of(uint32_t i) const {
-        const Fields buffer = at("buffers", "buffer", i);
+        const Fields buffer = root_.item("buffers", "buffer", i);
         BufferSource source;
-        source.number = i;
         source.byte_length = buffer.required(buffer.whole("byteLength", 1), "byteLength", "a length in bytes");
         source.uri = buffer.text("uri");
         return source;
@@ -252,19 +200,16 @@ class Filter {
         return key;
     }
 
-    Fields root_;
-    Kept<tinygltf::Node> nodes_;
-    Kept<tinygltf::Accessor> accessors_;
-    Kept<tinygltf::BufferView> views_;
-    Kept<BufferSource> buffers_;
-    std::vector<tinygltf::Primitive> primitives_;
+    const Fields &root_;
+    size_t accessors_, views_, buffers_; ///< of the whole file
+    Filtered filtered_;
     std::unordered_map<uint64_t, uint32_t> primitive_places_; ///< by mesh and primitive
     std::map<PrimitiveKey, size_t> same_primitives_;
 };
 
 } // namespace
 
-Filtered filter(const Json &root, const Outline &outline) {
+Filtered filter(const Fields &root, const Outline &outline) {
     return Filter(root).run(outline);
 }
 

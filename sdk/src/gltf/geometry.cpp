@@ -12,22 +12,18 @@ std::vector<float> read_attribute(const Model &model, const tinygltf::Primitive 
     if (found == primitive.attributes.end())
         return {};
     const std::string place = where + ": " + name;
-    std::vector<float> values = read_floats(model, found->second, components, place);
+    std::vector<float> values = read_floats(model, found->second, place);
     if (vertices != 0 && values.size() / components != vertices)
         refuse(place, "expected one element for each of " + std::to_string(vertices) + " positions, found " +
                           std::to_string(values.size() / components));
     return values;
 }
 
-const char *mode_name(int mode) {
-    constexpr const char *names[] = {"POINTS", "LINES", "LINE_LOOP", "LINE_STRIP"};
-    return names[mode];
-}
-
 /// Returns the number of triangles made by `count` vertices or indices.
 size_t check_count(size_t count, int mode, const std::string &where) {
+    constexpr const char *others[] = {"POINTS", "LINES", "LINE_LOOP", "LINE_STRIP"};
     if (mode < TINYGLTF_MODE_TRIANGLES)
-        refuse(where, std::string("mode: expected triangles in a tagged primitive, found ") + mode_name(mode));
+        refuse(where, std::string("mode: expected triangles in a tagged primitive, found ") + others[mode]);
     if (count < 3 || (mode == TINYGLTF_MODE_TRIANGLES && count % 3 != 0))
         refuse(where, std::string("expected ") + (mode == TINYGLTF_MODE_TRIANGLES ? "a multiple of 3" : "at least 3") +
                           " vertices or indices, found " + std::to_string(count));
@@ -112,9 +108,7 @@ Geometry read_geometry(const Model &model, const tinygltf::Primitive &primitive,
     geometry.uvs = read_attribute(model, primitive, "TEXCOORD_0", 2, vertices, where);
     if (primitive.indices >= 0) {
         geometry.indices = read_indices(model, primitive.indices, vertices, where + ": indices");
-        check_count(geometry.indices.size(), primitive.mode, where);
     } else {
-        check_count(vertices, primitive.mode, where);
         geometry.indices.resize(vertices);
         std::iota(geometry.indices.begin(), geometry.indices.end(), 0U);
     }

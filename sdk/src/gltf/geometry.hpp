@@ -23,8 +23,8 @@ struct GeometryCount {
 /** Counts without reading the data, and checks mode and counts. Throws Failure. */
 GeometryCount count_geometry(const Model &model, const tinygltf::Primitive &primitive, const std::string &where);
 
-/** Reads a primitive in its mesh's frame, strips and fans as triangles, counter-clockwise seen from outside. `where`
- * starts error messages: "mesh 'm' (0), primitive 1". Throws Failure. */
+/** Reads a primitive that was counted in its mesh's frame, strips and fans as triangles, counter-clockwise seen from
+ * outside. `where` starts error messages: "mesh 'm' (0), primitive 1". Throws Failure. */
 Geometry read_geometry(const Model &model, const tinygltf::Primitive &primitive, const std::string &where);
 
 } // namespace knurl::gltf

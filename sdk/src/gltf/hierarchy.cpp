@@ -7,13 +7,13 @@ namespace {
 using Children = std::vector<std::vector<uint32_t>>;
 
 std::string node_label(const Fields &root, size_t node) {
-    return Fields(root.json().at("nodes").at(node), "node", node).where();
+    return root.item("nodes", "node", node).where();
 }
 
 Children read_children(const Fields &root, size_t count) {
     Children children(count);
     for (size_t i = 0; i < count; ++i)
-        children[i] = Fields(root.json().at("nodes").at(i), "node", i).indices("children", count, "nodes");
+        children[i] = root.item("nodes", "node", i).indices("children", count, "nodes");
     return children;
 }
 
@@ -73,11 +73,11 @@ void refuse_rings(const Fields &root, const std::vector<int32_t> &parents, const
 /// The roots of the scene to load: `scene`, else the first scene, else every node without a parent.
 std::vector<uint32_t> scene_roots(const Fields &root, const std::vector<int32_t> &parents,
                                   const std::vector<uint32_t> &all_roots) {
-    const size_t scenes = root.array_size("scenes");
+    const size_t scenes = root.array("scenes").size();
     const uint32_t chosen = root.index("scene", scenes, "scenes").value_or(0);
     if (scenes == 0)
         return all_roots;
-    const Fields scene(root.json().at("scenes").at(chosen), "scene", chosen);
+    const Fields scene = root.item("scenes", "scene", chosen);
     std::vector<uint32_t> roots = scene.indices("nodes", parents.size(), "nodes");
     std::vector<bool> seen(parents.size(), false);
     for (const uint32_t node : roots) {
@@ -95,7 +95,7 @@ std::vector<uint32_t> scene_roots(const Fields &root, const std::vector<int32_t>
 } // namespace
 
 Hierarchy read_hierarchy(const Fields &root) {
-    const Children children = read_children(root, root.array_size("nodes"));
+    const Children children = read_children(root, root.array("nodes").size());
     Hierarchy hierarchy;
     hierarchy.parents = find_parents(root, children);
     std::vector<uint32_t> roots;

@@ -4,8 +4,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <stdexcept>
-
 namespace knurl::gltf {
 
 std::optional<bool> Json::flag() const {
@@ -29,20 +27,6 @@ const Json *Json::find(std::string_view key) const {
         return nullptr;
     const auto found = members->find(key);
     return found == members->end() ? nullptr : &found->second;
-}
-
-const Json &Json::at(std::string_view key) const {
-    const Json *found = find(key);
-    if (found == nullptr)
-        throw std::out_of_range("JSON: no such key");
-    return *found;
-}
-
-const Json &Json::at(size_t i) const {
-    const Array *elements = array();
-    if (elements == nullptr)
-        throw std::out_of_range("JSON: no array");
-    return elements->at(i);
 }
 
 std::string Json::described() const {

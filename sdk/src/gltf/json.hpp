@@ -55,10 +55,6 @@ class Json {
     /** The member, or null if this is not an object or has no such member. */
     const Json *find(std::string_view key) const;
 
-    /** For a member or element known to exist: throws std::out_of_range if it does not. */
-    const Json &at(std::string_view key) const;
-    const Json &at(size_t i) const;
-
     /** A description for "found ...". */
     std::string described() const;
 

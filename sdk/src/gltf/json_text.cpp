@@ -19,43 +19,35 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     }
 
     bool null() override {
-        add(Json());
-        return true;
+        return add(Json());
     }
     bool boolean(bool value) override {
-        add(Json(value));
-        return true;
+        return add(Json(value));
     }
     bool number_integer(number_integer_t value) override {
-        add(Json(value));
-        return true;
+        return add(Json(value));
     }
     bool number_unsigned(number_unsigned_t value) override {
-        add(Json(value));
-        return true;
+        return add(Json(value));
     }
     bool number_float(number_float_t value, const string_t & /*text*/) override {
-        add(Json(value));
-        return true;
+        return add(Json(value));
     }
     bool string(string_t &value) override {
-        add(Json(std::move(value)));
-        return true;
+        return add(Json(std::move(value)));
     }
     bool binary(binary_t & /*value*/) override {
         return false; // not in JSON text
     }
     bool start_object(size_t /*size*/) override {
-        open(Json(Json::Object()));
-        return true;
+        return open(Json(Json::Object()));
     }
     bool end_object() override {
         open_.pop_back();
         return true;
     }
     bool start_array(size_t /*size*/) override {
-        open(Json(Json::Array()));
-        return true;
+        return open(Json(Json::Array()));
     }
     bool end_array() override {
         open_.pop_back();
@@ -66,7 +58,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
         const auto [member, fresh] = open_.back()->object()->try_emplace(name);
         if (!fresh)
             refuse("JSON", "the key " + in_quotes(name) + " appears twice in " + path());
-        member_ = &member->second;
+        added_ = &member->second;
         return true;
     }
 
@@ -81,25 +73,28 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     }
 
   private:
-    Json *add(Json value) {
+    bool add(Json value) {
         if (values_ % values_a_step == 0)
             budget_.step();
         if (++values_ > json_values_max)
             refuse("JSON", "more than " + std::to_string(json_values_max) + " values");
         if (open_.empty()) {
             root_ = std::move(value);
-            return &root_;
+            added_ = &root_;
+        } else if (Json::Array *elements = open_.back()->array()) {
+            added_ = &elements->emplace_back(std::move(value));
+        } else {
+            *added_ = std::move(value);
         }
-        if (Json::Array *elements = open_.back()->array())
-            return &elements->emplace_back(std::move(value));
-        *member_ = std::move(value);
-        return member_;
+        return true;
     }
 
-    void open(Json container) {
+    bool open(Json container) {
         if (open_.size() == json_depth_max)
             refuse("JSON", "nested deeper than " + std::to_string(json_depth_max) + " in " + path());
-        open_.push_back(add(std::move(container)));
+        add(std::move(container));
+        open_.push_back(added_);
+        return true;
     }
 
     /// The current position: "materials[0].extras".
@@ -123,7 +118,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     Json root_;
     // Pointers into the tree stay valid: a container does not grow while a child of it is open.
     std::vector<Json *> open_;
-    Json *member_ = nullptr;
+    Json *added_ = nullptr; ///< the last value, or the member whose key was read last
     size_t values_ = 0;
 };
 

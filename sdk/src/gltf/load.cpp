@@ -102,7 +102,7 @@ struct Plan {
 /// Makes surfaces from an outline. Counts everything before reading any of it.
 class Maker {
   public:
-    Maker(const Json &root, const Outline &outline, const Model &model, Budget &budget, knurl_scene *scene)
+    Maker(const Fields &root, const Outline &outline, const Model &model, Budget &budget, knurl_scene *scene)
         : root_(root), outline_(outline), model_(model), budget_(budget), scene_(scene) {}
 
     uint32_t run() {
@@ -132,7 +132,7 @@ class Maker {
             const auto [known, fresh] = shapes_.try_emplace(key_of(instance, place, frame));
             if (fresh) {
                 const std::string where = where_of(root_, instance);
-                const GeometryCount count = count_geometry(model_, primitive(place), where);
+                const GeometryCount count = count_geometry(model_, model_.filtered.primitives[place], where);
                 budget_.take_shape(count.elements, count.triangles, where);
                 known->second.triangles = count.triangles;
                 triangles_ += count.triangles;
@@ -140,10 +140,6 @@ class Maker {
             plans_.push_back({frame, &known->second});
             budget_.step();
         }
-    }
-
-    const tinygltf::Primitive &primitive(uint32_t place) const {
-        return model_.filtered.primitives.at(place);
     }
 
     void add(Addition &addition, size_t i, const std::string &name) {
@@ -172,9 +168,9 @@ class Maker {
     /// Makes a shape for the first instance that needs it.
     knurl_surface_id add_shape(Addition &addition, size_t i, knurl_surface_desc surface, const std::string &where) {
         const Frame &frame = plans_[i].frame;
-        const tinygltf::Primitive &from = primitive(model_.filtered.instance_primitives[i]);
+        const tinygltf::Primitive &from = model_.filtered.primitives[model_.filtered.instance_primitives[i]];
         Geometry geometry = read_geometry(model_, from, where);
-        bake(geometry, frame, where, model_.accessor_label(from.attributes.at("POSITION")));
+        bake(geometry, frame, where, from.attributes.at("POSITION"));
         const knurl_mesh_desc mesh = mesh_of(geometry);
         surface.mesh = &mesh;
         if (const auto &axis = outline_.instances[i].tag.axis) {
@@ -188,7 +184,7 @@ class Maker {
         return addition.add(surface, where);
     }
 
-    const Json &root_;
+    const Fields &root_;
     const Outline &outline_;
     const Model &model_;
     Budget &budget_;
@@ -198,23 +194,17 @@ class Maker {
     uint64_t triangles_ = 0;
 };
 
-/// A load's parameters except its bytes.
-struct Order {
-    Budget budget;
-    Listener listener;
-};
-
-knurl_gltf_report add_surfaces(knurl_scene *scene, Bytes bytes, std::optional<fs::path> folder, Order &order) {
-    Budget &budget = order.budget;
+knurl_gltf_report add_surfaces(knurl_scene *scene, Bytes bytes, std::optional<fs::path> folder, Budget &budget) {
     const Container container = split(bytes);
-    const Json root = parse_json(container.json, budget);
+    const Json json = parse_json(container.json, budget);
+    const Fields root(json, "", no_index);
     const Outline outline = read_outline(root, budget);
     knurl_gltf_report report{};
     report.skipped = outline.skipped;
     if (outline.instances.empty())
         return report; // do not read buffers for nothing
     Model model;
-    load_model(filter(root, outline), {container.bin, std::move(folder), order.listener, &budget}, model);
+    load_model(filter(root, outline), {container.bin, std::move(folder), &budget}, model);
     report.surfaces = Maker(root, outline, model, budget, scene).run();
     return report;
 }
@@ -223,16 +213,19 @@ knurl_gltf_report add_surfaces(knurl_scene *scene, Bytes bytes, std::optional<fs
 constexpr uint32_t report_size_first = 16;
 constexpr uint32_t options_size_first = 8;
 
+void check_size(uint32_t size, uint32_t least, const char *type) {
+    if (size < least || size > 65536)
+        throw Failure(KNURL_ERROR_ARGUMENT, std::string(type) + ".struct_size: expected the value set by " + type +
+                                                "_init(), found " + std::to_string(size));
+}
+
 /// The caller's options, which may be shorter or longer: 0 in fields that the caller's version does not have.
 knurl_gltf_options complete(const knurl_gltf_options *options) {
     knurl_gltf_options all{};
     if (options == nullptr)
         return all;
     const uint32_t size = options->struct_size;
-    if (size < options_size_first || size > 65536)
-        throw Failure(KNURL_ERROR_ARGUMENT,
-                      "knurl_gltf_options.struct_size: expected the value set by knurl_gltf_options_init(), found " +
-                          std::to_string(size));
+    check_size(size, options_size_first, "knurl_gltf_options");
     const auto *bytes = reinterpret_cast<const unsigned char *>(options);
     for (size_t i = sizeof all; i < size; ++i)
         if (bytes[i] != 0)
@@ -243,23 +236,15 @@ knurl_gltf_options complete(const knurl_gltf_options *options) {
     return all;
 }
 
-void check(const knurl_gltf_report *report) {
-    if (report != nullptr && (report->struct_size < report_size_first || report->struct_size > 65536))
-        throw Failure(KNURL_ERROR_ARGUMENT,
-                      "knurl_gltf_report.struct_size: expected the value set by knurl_gltf_report_init(), found " +
-                          std::to_string(report->struct_size));
-}
-
 /// Runs `load` and turns exceptions into a result and a message that starts with the file's name.
 template <typename Load>
 knurl_result guarded(const char *name, const knurl_gltf_options *options, knurl_gltf_report *report, const Load &load) {
     const char *file = name != nullptr && *name != '\0' ? name : "glTF data";
     try {
-        const knurl_gltf_options o = complete(options);
-        check(report);
-        Order order{{{o.max_surfaces, o.max_bytes, o.max_vertices, o.max_triangles, o.max_seconds}, o.progress, o.user},
-                    {o.file_read, o.user}};
-        const knurl_gltf_report counts = load(order);
+        Budget budget(complete(options));
+        if (report != nullptr)
+            check_size(report->struct_size, report_size_first, "knurl_gltf_report");
+        const knurl_gltf_report counts = load(budget);
         if (report != nullptr) {
             report->surfaces = counts.surfaces;
             report->skipped = counts.skipped;
@@ -282,6 +267,14 @@ bool is_null(const void *pointer, const char *name) {
     return pointer == nullptr;
 }
 
+template <typename T>
+void init(T *made, uint32_t size, const char *name) {
+    if (is_null(made, name) || size < sizeof made->struct_size)
+        return;
+    std::memset(made, 0, size);
+    made->struct_size = size;
+}
+
 bool has_gltf_name(const fs::path &path) {
     std::string extension = path.extension().u8string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
@@ -296,30 +289,24 @@ using knurl::gltf::Failure;
 using knurl::gltf::is_null;
 
 void knurl_gltf_options_init(knurl_gltf_options *options, uint32_t size) {
-    if (is_null(options, "options") || size < sizeof options->struct_size)
-        return;
-    std::memset(options, 0, size);
-    options->struct_size = size;
+    knurl::gltf::init(options, size, "options");
 }
 
 void knurl_gltf_report_init(knurl_gltf_report *report, uint32_t size) {
-    if (is_null(report, "report") || size < sizeof report->struct_size)
-        return;
-    std::memset(report, 0, size);
-    report->struct_size = size;
+    knurl::gltf::init(report, size, "report");
 }
 
 knurl_result knurl_gltf_load_file(knurl_scene *scene, const char *path, const knurl_gltf_options *options,
                                   knurl_gltf_report *report) {
     if (is_null(path, "path") || knurl_scene_get_bytes(scene) == 0) // 0 for an invalid scene, with a message
         return KNURL_ERROR_ARGUMENT;
-    return knurl::gltf::guarded(path, options, report, [&](knurl::gltf::Order &order) {
+    return knurl::gltf::guarded(path, options, report, [&](knurl::gltf::Budget &budget) {
         const fs::path file = fs::u8path(path);
         if (!knurl::gltf::has_gltf_name(file))
             throw Failure(KNURL_ERROR_FORMAT, "expected a name that ends in .gltf or .glb");
-        const std::vector<unsigned char> bytes = knurl::gltf::read_file(file, order.budget);
-        order.listener.tell(file);
-        return knurl::gltf::add_surfaces(scene, {bytes.data(), bytes.size()}, file.parent_path(), order);
+        const std::vector<unsigned char> bytes = knurl::gltf::read_file(file, budget);
+        budget.tell_read(file);
+        return knurl::gltf::add_surfaces(scene, {bytes.data(), bytes.size()}, file.parent_path(), budget);
     });
 }
 
@@ -327,12 +314,12 @@ knurl_result knurl_gltf_load_memory(knurl_scene *scene, const void *data, uint64
                                     const char *folder, const knurl_gltf_options *options, knurl_gltf_report *report) {
     if ((size != 0 && is_null(data, "data")) || knurl_scene_get_bytes(scene) == 0)
         return KNURL_ERROR_ARGUMENT;
-    return knurl::gltf::guarded(name, options, report, [&](knurl::gltf::Order &order) {
-        order.budget.take_bytes(size, "");
+    return knurl::gltf::guarded(name, options, report, [&](knurl::gltf::Budget &budget) {
+        budget.take_bytes(size, "");
         std::optional<fs::path> root;
         if (folder != nullptr)
             root = fs::u8path(folder);
         return knurl::gltf::add_surfaces(scene, {static_cast<const unsigned char *>(data), static_cast<size_t>(size)},
-                                         std::move(root), order);
+                                         std::move(root), budget);
     });
 }

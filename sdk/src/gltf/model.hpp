@@ -12,12 +12,7 @@ namespace knurl::gltf {
 struct Model {
     Filtered filtered;
     Sources sources;
-    std::vector<Bytes> buffers;
-
-    /** "accessor 7", the number in the file. */
-    std::string accessor_label(int place) const {
-        return "accessor " + std::to_string(filtered.accessor_numbers.at(static_cast<size_t>(place)));
-    }
+    std::map<int, Bytes> buffers; ///< by their numbers in the file
 };
 
 /** Fills in `model` and reads its buffers. Throws Failure. */

@@ -29,19 +29,17 @@ bool is_harmless(const std::string &extension) {
 }
 
 void check_asset(const Fields &root) {
-    const std::optional<Fields> asset = root.object("asset");
-    if (!asset)
-        root.refuse_key("asset", "missing: expected an object with the glTF version: is this a glTF 2.0 file?");
-    const std::string *version = asset->text("version");
+    const Fields asset =
+        root.required(root.object("asset"), "asset", "an object with the glTF version: is this a glTF 2.0 file?");
+    const std::string *version = asset.text("version");
     if (version == nullptr)
-        asset->refuse_key("version", "missing: expected '2.0'");
+        asset.refuse_key("version", "missing: expected '2.0'");
     if (version->rfind("2.", 0) != 0)
-        asset->refuse_key("version", "expected '2.0', found " + in_quotes(*version), KNURL_ERROR_UNSUPPORTED);
-    const std::string *least = asset->text("minVersion");
+        asset.refuse_key("version", "expected '2.0', found " + in_quotes(*version), KNURL_ERROR_UNSUPPORTED);
+    const std::string *least = asset.text("minVersion");
     if (least != nullptr && *least != "2.0")
-        asset->refuse_key("minVersion", "expected '2.0', found " + in_quotes(*least), KNURL_ERROR_UNSUPPORTED);
-    for (size_t i = 0; i < root.array_size("extensionsRequired"); ++i) {
-        const Json &value = root.json().at("extensionsRequired").at(i);
+        asset.refuse_key("minVersion", "expected '2.0', found " + in_quotes(*least), KNURL_ERROR_UNSUPPORTED);
+    for (const Json &value : root.array("extensionsRequired")) {
         const std::string *name = value.text();
         if (name == nullptr)
             root.refuse_value("extensionsRequired", "an array of strings", value);
@@ -54,8 +52,8 @@ void check_asset(const Fields &root) {
 /// Reads every tag of the array under `key`, even of objects that the scene does not show, to report mistakes in them.
 Tags read_tags(const Fields &root, const char *key, const char *kind) {
     Tags tags;
-    for (size_t i = 0; i < root.array_size(key); ++i)
-        if (std::optional<Tag> tag = read_tag(Fields(root.json().at(key).at(i), kind, i)))
+    for (size_t i = 0; i < root.array(key).size(); ++i)
+        if (std::optional<Tag> tag = read_tag(root.item(key, kind, i)))
             tags.emplace(i, *std::move(tag));
     return tags;
 }
@@ -73,7 +71,7 @@ struct MeshPlan {
 
 class Reader {
   public:
-    Reader(const Json &json, Budget &budget) : root_(json, "", no_index), budget_(budget) {}
+    Reader(const Fields &root, Budget &budget) : root_(root), budget_(budget) {}
 
     Outline read() {
         check_asset(root_);
@@ -92,17 +90,13 @@ class Reader {
     }
 
   private:
-    Fields at(const char *key, const char *kind, size_t index) const {
-        return {root_.json().at(key).at(index), kind, index};
-    }
-
     void refuse_lost_tags() const {
         refuse_tag(root_, "tag a material, mesh or node");
-        for (size_t i = 0; i < root_.array_size("scenes"); ++i)
-            refuse_tag(at("scenes", "scene", i), "tag a material, mesh or node");
+        for (size_t i = 0; i < root_.array("scenes").size(); ++i)
+            refuse_tag(root_.item("scenes", "scene", i), "tag a material, mesh or node");
         for (const auto &[index, tag] : nodes_)
-            if (at("nodes", "node", index).find("mesh") == nullptr)
-                refuse_tag(at("nodes", "node", index),
+            if (root_.item("nodes", "node", index).find("mesh") == nullptr)
+                refuse_tag(root_.item("nodes", "node", index),
                            "the node shows no mesh; tag nodes below it that do, their meshes or materials");
     }
 
@@ -111,12 +105,12 @@ class Reader {
         if (known != plans_.end())
             return known->second;
         MeshPlan made;
-        const Fields mesh = at("meshes", "mesh", index);
+        const Fields mesh = root_.item("meshes", "mesh", index);
         const bool mesh_tagged = find(meshes_, index) != nullptr;
-        for (size_t i = 0; i < mesh.array_size("primitives"); ++i) {
+        for (size_t i = 0; i < mesh.array("primitives").size(); ++i) {
             const Fields primitive = mesh.element("primitives", i);
             refuse_tag(primitive, "tag the mesh, its node or a material");
-            const auto material = primitive.index("material", root_.array_size("materials"), "materials");
+            const auto material = primitive.index("material", root_.array("materials").size(), "materials");
             made.materials.push_back(material);
             if (mesh_tagged || find(materials_, material) != nullptr)
                 made.tagged.push_back(static_cast<uint32_t>(i));
@@ -127,7 +121,7 @@ class Reader {
     }
 
     std::optional<uint32_t> mesh_of(uint32_t node) const {
-        return at("nodes", "node", node).index("mesh", root_.array_size("meshes"), "meshes");
+        return root_.item("nodes", "node", node).index("mesh", root_.array("meshes").size(), "meshes");
     }
 
     /// Counts before making instances: nodes times primitives may not fit into memory.
@@ -138,14 +132,11 @@ class Reader {
                 const MeshPlan &shape = plan(*mesh);
                 total += find(nodes_, node) != nullptr ? shape.materials.size() : shape.tagged.size();
             }
-        if (total > budget_.surfaces())
-            throw Failure(KNURL_ERROR_FULL, "budget.max_surfaces: expected at most " +
-                                                std::to_string(budget_.surfaces()) + " tagged surfaces, found " +
-                                                std::to_string(total));
+        budget_.take_surfaces(total);
     }
 
     void show(uint32_t index) {
-        const Fields node = at("nodes", "node", index);
+        const Fields node = root_.item("nodes", "node", index);
         const std::optional<uint32_t> mesh = mesh_of(index);
         if (!mesh)
             return;
@@ -159,7 +150,7 @@ class Reader {
     }
 
     void add(const Fields &node, uint32_t index, uint32_t mesh_index, uint32_t primitive, const MeshPlan &shape) {
-        const Fields mesh = at("meshes", "mesh", mesh_index);
+        const Fields mesh = root_.item("meshes", "mesh", mesh_index);
         const std::optional<uint32_t> material_index = shape.materials[primitive];
         Instance instance;
         instance.node = index;
@@ -169,17 +160,18 @@ class Reader {
             if (tag != nullptr)
                 instance.tag.override_with(*tag);
         if (const char *key = instance.tag.missing_key())
-            refuse(where_of(root_.json(), instance),
+            refuse(where_of(root_, instance),
                    std::string("knurl.") + key + ": missing: expected in extras of " +
-                       (material_index ? at("materials", "material", *material_index).where() + ", " : "") +
+                       (material_index ? root_.item("materials", "material", *material_index).where() + ", " : "") +
                        mesh.where() + " or " + node.where());
         if (node.find("skin") != nullptr)
-            refuse(where_of(root_.json(), instance), "skin: a tagged mesh cannot be skinned", KNURL_ERROR_UNSUPPORTED);
-        if (mesh.element("primitives", primitive).array_size("targets") > 0)
-            refuse(where_of(root_.json(), instance), "targets: a tagged mesh cannot have morph targets",
+            refuse(where_of(root_, instance), "skin: a tagged mesh cannot be skinned", KNURL_ERROR_UNSUPPORTED);
+        if (mesh.element("primitives", primitive).array("targets").size() > 0)
+            refuse(where_of(root_, instance), "targets: a tagged mesh cannot have morph targets",
                    KNURL_ERROR_UNSUPPORTED);
         if (material_index)
-            instance.double_sided = at("materials", "material", *material_index).flag("doubleSided").value_or(false);
+            instance.double_sided =
+                root_.item("materials", "material", *material_index).flag("doubleSided").value_or(false);
         instance.name = surface_name(node, index, mesh, primitive, material_index, shape.materials.size());
         outline_.instances.push_back(std::move(instance));
     }
@@ -192,12 +184,13 @@ class Reader {
             name = "node " + std::to_string(index);
         if (primitives < 2)
             return name;
-        const std::string_view part = material ? at("materials", "material", *material).name() : std::string_view();
+        const std::string_view part =
+            material ? root_.item("materials", "material", *material).name() : std::string_view();
         return name + " / " +
                (part.empty() ? "primitive " + std::to_string(primitive) : shortened(part, name_part_max));
     }
 
-    Fields root_;
+    const Fields &root_;
     Budget &budget_;
     Tags materials_;
     Tags meshes_;
@@ -208,16 +201,13 @@ class Reader {
 
 } // namespace
 
-Outline read_outline(const Json &root, Budget &budget) {
-    if (root.object() == nullptr)
-        refuse("JSON", "expected an object at its root, found " + root.described());
+Outline read_outline(const Fields &root, Budget &budget) {
     return Reader(root, budget).read();
 }
 
-std::string where_of(const Json &root, const Instance &instance) {
-    return Fields(root.at("nodes").at(instance.node), "node", instance.node).where() + ", " +
-           Fields(root.at("meshes").at(instance.mesh), "mesh", instance.mesh).where() + ", primitive " +
-           std::to_string(instance.primitive);
+std::string where_of(const Fields &root, const Instance &instance) {
+    return root.item("nodes", "node", instance.node).where() + ", " +
+           root.item("meshes", "mesh", instance.mesh).where() + ", primitive " + std::to_string(instance.primitive);
 }
 
 } // namespace knurl::gltf

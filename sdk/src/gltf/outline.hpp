@@ -24,11 +24,11 @@ struct Outline {
     uint32_t skipped = 0;            ///< primitives without a tag, counted once per node
 };
 
-/** root: the file's JSON. Throws Failure. */
-Outline read_outline(const Json &root, Budget &budget);
+/** Throws Failure. */
+Outline read_outline(const Fields &root, Budget &budget);
 
 /** The start of messages about an instance: "node 'n' (1), mesh 'm' (0), primitive 2". */
-std::string where_of(const Json &root, const Instance &instance);
+std::string where_of(const Fields &root, const Instance &instance);
 
 } // namespace knurl::gltf
 #endif

@@ -21,7 +21,7 @@ constexpr double flat_tolerance = 1e-9;
 constexpr double shortest_axis = 1e-100;
 
 const tinygltf::Node &node_at(const Model &model, uint32_t number) {
-    return model.filtered.nodes.at(model.filtered.node_places.at(number));
+    return model.filtered.nodes.at(static_cast<int>(number));
 }
 
 std::string node_label(const Model &model, uint32_t number) {
@@ -63,10 +63,6 @@ std::string shown(double value) {
 
 bool is_in_range(double coordinate) {
     return std::fabs(coordinate) <= KNURL_COORDINATE_MAX;
-}
-
-glm::dvec3 at(const std::vector<float> &values, size_t i) {
-    return {values[i], values[i + 1], values[i + 2]};
 }
 
 void put(std::vector<float> &values, size_t i, const glm::dvec3 &v) {
@@ -132,19 +128,19 @@ std::array<double, 9> bake_key(const Frame &frame) {
     return key;
 }
 
-void bake(Geometry &geometry, const Frame &frame, const std::string &where, const std::string &positions) {
+void bake(Geometry &geometry, const Frame &frame, const std::string &where, int accessor) {
     for (size_t i = 0; i + 2 < geometry.positions.size(); i += 3) {
-        const glm::dvec3 p = frame.bake * at(geometry.positions, i);
+        const glm::dvec3 p = frame.bake * glm::dvec3(glm::make_vec3(&geometry.positions[i]));
         for (int axis = 0; axis < 3; ++axis)
             if (!is_in_range(p[axis]))
-                refuse(where, "POSITION (" + positions + "): its used vertex " + std::to_string(i / 3) +
-                                  ": expected within " + shown(KNURL_COORDINATE_MAX) +
+                refuse(where, "POSITION (accessor " + std::to_string(accessor) + "): its used vertex " +
+                                  std::to_string(i / 3) + ": expected within " + shown(KNURL_COORDINATE_MAX) +
                                   " m with the node's transform, found " + shown(p[axis]) + " m");
         put(geometry.positions, i, p);
     }
     for (size_t i = 0; i + 3 < geometry.tangents.size(); i += 4) {
         // Only the direction matters; normalise it, so that float32 neither overflows nor underflows.
-        const glm::dvec3 tangent = frame.bake * at(geometry.tangents, i);
+        const glm::dvec3 tangent = frame.bake * glm::dvec3(glm::make_vec3(&geometry.tangents[i]));
         const double length = glm::length(tangent);
         put(geometry.tangents, i, length > 0.0 ? tangent / length : tangent);
     }

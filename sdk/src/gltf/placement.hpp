@@ -42,9 +42,9 @@ class Placement {
  * not show in float32 positions. */
 std::array<double, 9> bake_key(const Frame &frame);
 
-/** Moves a geometry from its mesh's frame into its surface's. For messages: `where` is "node 'n' (1)", `positions` is
- * POSITION's accessor, "accessor 0". Throws Failure. */
-void bake(Geometry &geometry, const Frame &frame, const std::string &where, const std::string &positions);
+/** Moves a geometry from its mesh's frame into its surface's. For messages: `where` is "node 'n' (1)", `accessor`
+ * POSITION's number. Throws Failure. */
+void bake(Geometry &geometry, const Frame &frame, const std::string &where, int accessor);
 
 } // namespace knurl::gltf
 #endif

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace knurl::gltf {
 namespace {
@@ -51,29 +52,6 @@ void read_spatial_frequency(Tag &tag, const Entry &entry) {
     tag.spatial_frequency = {number_from_0(entry, two->front(), expected), number_from_0(entry, two->back(), expected)};
 }
 
-void read_amplitude(Tag &tag, const Entry &entry) {
-    tag.amplitude = number_from_0(entry, entry.value, "a number >= 0 (m)");
-}
-
-void read_stiffness(Tag &tag, const Entry &entry) {
-    const char *expected = "a number > 0 (N/m)";
-    tag.stiffness = number_from_0(entry, entry.value, expected);
-    if (*tag.stiffness == 0.0)
-        entry.refuse(expected);
-}
-
-void read_damping(Tag &tag, const Entry &entry) {
-    tag.damping = number_from_0(entry, entry.value, "a number >= 0 (N s/m)");
-}
-
-void read_friction(Tag &tag, const Entry &entry) {
-    tag.friction = number_from_0(entry, entry.value, "a number >= 0 (a Coulomb coefficient)");
-}
-
-void read_orientation(Tag &tag, const Entry &entry) {
-    tag.orientation = number(entry, entry.value, "a number (rad)");
-}
-
 void read_axis(Tag &tag, const Entry &entry) {
     const char *expected = "an array of 3 numbers that are not all 0 (a direction in object space)";
     std::array<double, 3> axis{};
@@ -111,25 +89,39 @@ void read_method(Tag &tag, const Entry &entry) {
 
 struct Key {
     const char *name;
-    void (*read)(Tag &, const Entry &);
+    void (*read)(Tag &, const Entry &); ///< null: one number, into `to`
+    std::optional<double> Tag::*to = nullptr;
+    double least = 0.0;
+    const char *expected = nullptr;
 };
 
-constexpr std::array<Key, 9> keys = {{{"version", read_version},
-                                      {"spatial_frequency", read_spatial_frequency},
-                                      {"amplitude", read_amplitude},
-                                      {"stiffness", read_stiffness},
-                                      {"damping", read_damping},
-                                      {"friction", read_friction},
-                                      {"orientation", read_orientation},
-                                      {"axis", read_axis},
-                                      {"method", read_method}}};
+constexpr double above_0 = std::numeric_limits<double>::denorm_min();
+constexpr double any_number = std::numeric_limits<double>::lowest();
+
+constexpr Key keys[] = {{"version", read_version},
+                        {"spatial_frequency", read_spatial_frequency},
+                        {"amplitude", nullptr, &Tag::amplitude, 0.0, "a number >= 0 (m)"},
+                        {"stiffness", nullptr, &Tag::stiffness, above_0, "a number > 0 (N/m)"},
+                        {"damping", nullptr, &Tag::damping, 0.0, "a number >= 0 (N s/m)"},
+                        {"friction", nullptr, &Tag::friction, 0.0, "a number >= 0 (a Coulomb coefficient)"},
+                        {"orientation", nullptr, &Tag::orientation, any_number, "a number (rad)"},
+                        {"axis", read_axis},
+                        {"method", read_method}};
+
+void read_key(Tag &tag, const Key &key, const Entry &entry) {
+    if (key.read != nullptr)
+        return key.read(tag, entry);
+    const double x = number(entry, entry.value, key.expected);
+    if (x < key.least)
+        entry.refuse(key.expected);
+    tag.*key.to = x;
+}
 
 /// prefix: of keys in messages, "knurl." or "knurl_".
 void read_entry(Tag &tag, const Fields &extras, const std::string &prefix, std::string_view name, const Json &value) {
     for (const Key &key : keys)
         if (name == key.name) {
-            key.read(tag, {extras, prefix + key.name, value});
-            return;
+            return read_key(tag, key, {extras, prefix + key.name, value});
         }
     std::string known;
     for (const Key &key : keys)
@@ -151,21 +143,15 @@ void Tag::override_with(const Tag &other) {
             mine = theirs;
     };
     take(spatial_frequency, other.spatial_frequency);
-    take(amplitude, other.amplitude);
-    take(stiffness, other.stiffness);
-    take(damping, other.damping);
-    take(friction, other.friction);
-    take(orientation, other.orientation);
+    for (const Key &key : keys)
+        if (key.to != nullptr)
+            take(this->*key.to, other.*key.to);
     take(axis, other.axis);
     take(method, other.method);
 }
 
 const char *Tag::missing_key() const {
-    if (!spatial_frequency)
-        return "spatial_frequency";
-    if (!amplitude)
-        return "amplitude";
-    return stiffness ? nullptr : "stiffness";
+    return !spatial_frequency ? "spatial_frequency" : !amplitude ? "amplitude" : !stiffness ? "stiffness" : nullptr;
 }
 
 std::optional<Tag> read_tag(const Fields &owner) {

@@ -2,39 +2,23 @@
 #include "uri.hpp"
 #include "failure.hpp"
 
-#include <array>
+#include <charconv>
 #include <cstdint>
 
 namespace knurl::gltf {
 namespace {
 
-int hex_digit(char c) {
-    if (c >= '0' && c <= '9')
-        return c - '0';
-    if (c >= 'a' && c <= 'f')
-        return c - 'a' + 10;
-    if (c >= 'A' && c <= 'F')
-        return c - 'A' + 10;
-    return -1;
-}
-
-bool is_letter(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-}
-
-constexpr uint8_t not_base64 = 255;
-
-std::array<uint8_t, 256> base64_values() {
-    std::array<uint8_t, 256> values{};
-    values.fill(not_base64);
-    const std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    for (size_t i = 0; i < digits.size(); ++i)
-        values[static_cast<unsigned char>(digits[i])] = static_cast<uint8_t>(i);
-    return values;
+/// -1: not a digit.
+int base64_value(char c) {
+    return c >= 'A' && c <= 'Z'   ? c - 'A'
+           : c >= 'a' && c <= 'z' ? c - 'a' + 26
+           : c >= '0' && c <= '9' ? c - '0' + 52
+           : c == '+'             ? 62
+           : c == '/'             ? 63
+                                  : -1;
 }
 
 std::vector<unsigned char> base64_decoded(std::string_view text) {
-    static const std::array<uint8_t, 256> values = base64_values();
     for (int i = 0; i < 2 && !text.empty() && text.back() == '='; ++i)
         text.remove_suffix(1);
     if (text.size() % 4 == 1)
@@ -44,10 +28,10 @@ std::vector<unsigned char> base64_decoded(std::string_view text) {
     uint32_t bits = 0;
     unsigned held = 0;
     for (const char c : text) {
-        const uint8_t value = values[static_cast<unsigned char>(c)];
-        if (value == not_base64)
+        const int value = base64_value(c);
+        if (value < 0)
             throw Failure(KNURL_ERROR_FORMAT, "expected base64 digits, found " + in_quotes(std::string(1, c)));
-        bits = (bits << 6U) | value;
+        bits = (bits << 6U) | static_cast<uint32_t>(value);
         held += 6;
         if (held >= 8) {
             held -= 8;
@@ -63,11 +47,10 @@ std::string percent_decoded(std::string_view uri) {
     std::string text;
     text.reserve(uri.size());
     for (size_t i = 0; i < uri.size(); ++i) {
-        const bool triple = uri[i] == '%' && uri.size() - i > 2;
-        const int high = triple ? hex_digit(uri[i + 1]) : -1;
-        const int low = triple ? hex_digit(uri[i + 2]) : -1;
-        if (high >= 0 && low >= 0) {
-            text.push_back(static_cast<char>(high * 16 + low));
+        unsigned char byte = 0;
+        const char *digits = uri.data() + i + 1;
+        if (uri[i] == '%' && uri.size() - i > 2 && std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2) {
+            text.push_back(static_cast<char>(byte));
             i += 2;
         } else {
             text.push_back(uri[i]);
@@ -76,26 +59,18 @@ std::string percent_decoded(std::string_view uri) {
     return text;
 }
 
-bool has_scheme(std::string_view uri) {
-    if (uri.empty() || !is_letter(uri[0]))
-        return false;
+std::string scheme_of(std::string_view uri) {
+    std::string scheme;
     for (const char c : uri) {
+        const char lower = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+        const bool is_letter = lower >= 'a' && lower <= 'z';
         if (c == ':')
-            return true;
-        if (!is_letter(c) && !(c >= '0' && c <= '9') && c != '+' && c != '-' && c != '.')
-            return false;
+            return scheme;
+        if (!is_letter && (scheme.empty() || !((c >= '0' && c <= '9') || c == '+' || c == '-' || c == '.')))
+            return "";
+        scheme.push_back(lower);
     }
-    return false;
-}
-
-bool is_data_uri(std::string_view uri) {
-    const std::string_view scheme = "data:";
-    if (uri.size() < scheme.size())
-        return false;
-    for (size_t i = 0; i < scheme.size(); ++i)
-        if (uri[i] != scheme[i] && uri[i] != scheme[i] - 'a' + 'A')
-            return false;
-    return true;
+    return "";
 }
 
 std::vector<unsigned char> data_uri_bytes(std::string_view uri) {
