@@ -12,6 +12,13 @@
 /** What a smooth plate pushes back with, N/m. */
 #define STIFFNESS 400.0
 
+static inline void scoped_session(knurl_session **s) {
+    knurl_session_destroy(*s);
+}
+
+/** One that ends with its block. */
+#define SCOPED_SESSION __attribute__((cleanup(scoped_session))) knurl_session
+
 static inline knurl_session *make_session(void) {
     knurl_session *s = NULL;
     assert_int_equal(knurl_session_create(&s), KNURL_OK);

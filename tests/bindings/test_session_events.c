@@ -286,7 +286,7 @@ TEST(a_lost_device_is_told_and_then_the_end) {
 }
 
 TEST(a_device_that_comes_back_is_told_and_goes_on) {
-    knurl_session *s = set_up_nothing("fake:?lose_at=0.1");
+    SCOPED_SESSION *s = set_up_nothing("fake:?lose_at=0.1");
     step(s, 300);
     knurl_session_update(s);
     check_fault(s, KNURL_FAULT_LOST, 0.0);
@@ -297,12 +297,11 @@ TEST(a_device_that_comes_back_is_told_and_goes_on) {
         is_back = is_back || event.code == KNURL_FAULT_RECONNECTED;
     }
     assert_true(is_back && state_of(s).running);
-    knurl_session_destroy(s);
 }
 
 TEST(a_device_without_a_position_plays_nothing) {
     knurl_session_desc desc = describe("fake:?lose_at=0.1", "");
-    knurl_session *s = make_session();
+    SCOPED_SESSION *s = make_session();
     (void)add_plate(s, 0.0, 0.0, 0.0);
     desc.reconnect = 0;
     open_session(s, &desc);
@@ -316,7 +315,6 @@ TEST(a_device_without_a_position_plays_nothing) {
     CHECK_VECTOR(now.force, 0.0, 0.0, 0.0, 0.0);
     CHECK_VECTOR(now.proxy, now.hip[0], now.hip[1], now.hip[2], 0.0);
     CHECK_SAME(now.hip[2], -0.001);
-    knurl_session_destroy(s);
 }
 
 TEST(faults_come_with_their_values_after_touches_and_buttons) {
@@ -334,7 +332,7 @@ TEST(faults_come_with_their_values_after_touches_and_buttons) {
 /* A handler that takes longer than a device that fails in every tick. */
 TEST(a_frame_ends_however_many_faults_there_are) {
     knurl_session_event event;
-    knurl_session *s = set_up_nothing("fake");
+    SCOPED_SESSION *s = set_up_nothing("fake");
     step(s, 1);
     knurl_events_report(&s->device->events, KNURL_FAULT_CORRUPT, 1.0);
     knurl_session_update(s);
@@ -345,14 +343,13 @@ TEST(a_frame_ends_however_many_faults_there_are) {
     }
     knurl_session_update(s);
     assert_int_equal(knurl_session_next_event(s, &event), 1);
-    knurl_session_destroy(s);
 }
 
 /* 0.4 N for 0.1 s, and a hand that slides at 50 mm/s: what a body that is touched gets, and a game may ask for. */
 TEST(state_tells_impulse_velocity_and_depth) {
     static const double rows[8] = {0.0, 0.0, 0.0, -0.001, 1.0, 0.05, 0.0, -0.001};
     const knurl_session_desc desc = describe("fake", "");
-    knurl_session *s = make_session();
+    SCOPED_SESSION *s = make_session();
     (void)add_plate(s, 0.0, 0.0, 0.0);
     open_session(s, &desc);
     begin(s);
@@ -368,17 +365,15 @@ TEST(state_tells_impulse_velocity_and_depth) {
     assert_int_equal(knurl_fake_set_trace(s->device, rows, 2), KNURL_OK);
     step(s, 500);
     CHECK_CLOSE(state_of(s).velocity[0], 0.05, 0.005);
-    knurl_session_destroy(s);
 }
 
 /* Whatever is connected to the machine that tests. */
 TEST(auto_is_what_is_connected_or_says_that_nothing_is) {
     const knurl_session_desc desc = describe("auto", "");
-    knurl_session *s = make_session();
+    SCOPED_SESSION *s = make_session();
     if (knurl_session_open(s, &desc)) {
         check_message("auto: expected a device that is connected");
     } else {
         assert_non_null(knurl_session_get_device(s));
     }
-    knurl_session_destroy(s);
 }

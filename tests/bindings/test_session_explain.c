@@ -13,7 +13,7 @@ static knurl_surface_id add_at(knurl_session *s, double x, double stiffness) {
 TEST(what_can_be_felt_needs_no_words) {
     const knurl_session_desc desc = describe("fake", "");
     char text[64] = "?";
-    knurl_session *s = make_session();
+    SCOPED_SESSION *s = make_session();
     const knurl_surface_id plate = add_at(s, 0.0, 300.0);
     const knurl_surface_id far = add_at(s, 5.0, 1e6);
     knurl_session_explain(s, far, text, sizeof text);
@@ -24,7 +24,6 @@ TEST(what_can_be_felt_needs_no_words) {
     assert_string_equal(text, "");
     knurl_session_explain(s, 0, text, sizeof text);
     assert_string_equal(text, ""); /* what is not there is nothing to explain */
-    knurl_session_destroy(s);
 }
 
 /* The fake device is 0.16 m wide, a plate 0.1 m: they meet up to 0.13 m. */
@@ -34,14 +33,13 @@ TEST(what_lies_out_of_reach_is_said_to) {
     for (size_t i = 0; i < COUNT_OF(cases); i++) {
         knurl_session_desc desc = describe("fake", "");
         char text[1024] = "?";
-        knurl_session *s = make_session();
+        SCOPED_SESSION *s = make_session();
         const knurl_surface_id plate = add_at(s, cases[i][0], 100.0);
         desc.workspace.scale = cases[i][1];
         open_session(s, &desc);
         begin(s);
         knurl_session_explain(s, plate, text, sizeof text);
         assert_int_equal(strstr(text, "outside of the device's workspace") != NULL, far[i]);
-        knurl_session_destroy(s);
     }
 }
 
@@ -49,7 +47,7 @@ TEST(reasons_have_a_line_each) {
     const knurl_session_desc desc = describe("fake", "");
     char text[2048] = "?";
     knurl_surface_check check;
-    knurl_session *s = make_session();
+    SCOPED_SESSION *s = make_session();
     const knurl_surface_id hard = add_at(s, 5.0, 1e5);
     open_session(s, &desc);
     begin(s);
@@ -59,7 +57,6 @@ TEST(reasons_have_a_line_each) {
     char *second = strchr(text, '\n');
     assert_non_null(second);
     assert_string_equal(second + 1, check.message);
-    knurl_session_destroy(s);
 }
 
 /* However small the buffer, the text is the whole one's beginning, ends, and ends with a whole character. */
@@ -118,7 +115,7 @@ TEST(what_is_no_text_at_all_is_cut_off_too) {
 TEST(a_stroke_that_cannot_be_laid_is_warned_of) {
     const knurl_session_desc desc = describe("fake", "line");
     char warning[256] = "?";
-    knurl_session *s = make_session();
+    SCOPED_SESSION *s = make_session();
     (void)add_at(s, 1.0, 300.0);
     open_session(s, &desc);
     assert_int_equal(knurl_session_start(s, warning, sizeof warning), KNURL_OK);
@@ -131,18 +128,16 @@ TEST(a_stroke_that_cannot_be_laid_is_warned_of) {
         assert_int_equal(knurl_session_start(s, cut, size), KNURL_OK);
         check_cuts(warning, size, cut);
     }
-    knurl_session_destroy(s);
 }
 
 TEST(one_that_can_is_not) {
     const knurl_session_desc desc = describe("fake", "line");
     char warning[256] = "?";
-    knurl_session *s = make_session();
+    SCOPED_SESSION *s = make_session();
     (void)add_at(s, 0.0, 300.0);
     open_session(s, &desc);
     assert_int_equal(knurl_session_start(s, warning, sizeof warning), KNURL_OK);
     assert_string_equal(warning, "");
-    knurl_session_destroy(s);
 }
 
 /* A plate at many heights of the fake device's workspace, from -35 to 35 mm: the hand that comes down on it is warned
@@ -153,7 +148,7 @@ TEST(a_stroke_that_touches_a_surface_inside_is_not_warned_of) {
         const double z = 1e-3 * mm + 5e-4;
         knurl_surface_id outside = 0;
         knurl_hip_counts counts;
-        knurl_session *s = make_session();
+        SCOPED_SESSION *s = make_session();
         const knurl_surface_id plate = add_plate(s, 0.0, 0.0, z);
         open_session(s, &desc);
         begin(s);
@@ -165,6 +160,5 @@ TEST(a_stroke_that_touches_a_surface_inside_is_not_warned_of) {
         } else {
             assert_true(outside == plate);
         }
-        knurl_session_destroy(s);
     }
 }

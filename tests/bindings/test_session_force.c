@@ -28,7 +28,7 @@ static knurl_session *pressed(void) {
 }
 
 TEST(a_gain_counts_for_this_run_and_for_later_ones) {
-    knurl_session *s = pressed();
+    SCOPED_SESSION *s = pressed();
     CHECK_CLOSE(state_of(s).force[2], 2.0, 1e-6);
     assert_int_equal(knurl_session_set_gain(s, 0.5), KNURL_OK);
     step(s, 40);
@@ -38,14 +38,13 @@ TEST(a_gain_counts_for_this_run_and_for_later_ones) {
     assert_int_equal(knurl_session_set_gain(s, 1.5), KNURL_ERROR_ARGUMENT);
     assert_int_equal(knurl_session_set_gain(s, NAN), KNURL_ERROR_ARGUMENT);
     CHECK_CLOSE(s->gain, 0.5, 0.0);
-    knurl_session_destroy(s);
 }
 
 TEST(forces_and_vibrations_are_a_runs_and_end_with_it) {
     static const double force[3] = {0.5, 0.0, 0.0};
     static const double along[3] = {0.0, 1.0, 0.0};
     const knurl_session_desc desc = describe("fake", "");
-    knurl_session *s = make_session();
+    SCOPED_SESSION *s = make_session();
     assert_int_equal(knurl_session_set_force(s, force), KNURL_ERROR_STATE);
     assert_int_equal(knurl_session_vibrate(s, KNURL_WAVE_T1, 100.0, 1.0, along, 1.0), KNURL_ERROR_STATE);
     open_session(s, &desc);
@@ -59,22 +58,20 @@ TEST(forces_and_vibrations_are_a_runs_and_end_with_it) {
     begin(s);
     step(s, 4);
     CHECK_VECTOR(state_of(s).force, 0.0, 0.0, 0.0, 0.0);
-    knurl_session_destroy(s);
 }
 
 TEST(a_workspace_follows_its_node_by_the_engines_clock_and_is_where_it_stands) {
     const knurl_workspace to = at(0.0, 0.01, 1.0);
-    knurl_session *s = pressed();
+    SCOPED_SESSION *s = pressed();
     move(s, &to);
     step(s, 60);
     CHECK_CLOSE(state_of(s).hip[2], 0.005, 1e-9); /* out of the plate, with a hand that held still */
     assert_int_equal(state_of(s).in_contact, 0);
-    knurl_session_destroy(s);
 }
 
 TEST(a_workspace_that_is_faster_than_10_m_per_s_leaps_through_a_wall) {
     const knurl_workspace to = at(0.0, -2.0, 1.0);
-    knurl_session *s = make_session();
+    SCOPED_SESSION *s = make_session();
     const knurl_session_desc desc = describe("fake", "");
     (void)add_plate(s, 0.0, 0.0, 0.0);
     open_session(s, &desc);
@@ -84,13 +81,12 @@ TEST(a_workspace_that_is_faster_than_10_m_per_s_leaps_through_a_wall) {
     step(s, 1);
     CHECK_CLOSE(state_of(s).hip[2], -1.98, 1e-9);
     assert_int_equal(state_of(s).in_contact, 0);
-    knurl_session_destroy(s);
 }
 
 TEST(the_mouse_goes_where_the_game_says_wherever_the_workspace_has_gone) {
     const knurl_workspace to = at(0.1, 0.0, 2.0);
     static const double there[3] = {0.03, 0.02, 0.01};
-    knurl_session *s = make_session();
+    SCOPED_SESSION *s = make_session();
     const knurl_session_desc desc = describe("mouse", "");
     open_session(s, &desc);
     assert_int_equal(knurl_session_start(s, NULL, 0), KNURL_OK);
@@ -98,12 +94,11 @@ TEST(the_mouse_goes_where_the_game_says_wherever_the_workspace_has_gone) {
     assert_int_equal(knurl_session_move_hip(s, there), KNURL_OK);
     CHECK_UNTIL(s, fabs(state_of(s).hip[0] - 0.03) < 1e-6);
     CHECK_VECTOR(state_of(s).hip, 0.03, 0.02, 0.01, 1e-5);
-    knurl_session_destroy(s);
 }
 
 /* 4 mm below the node, 1 mm above the plate: twice as far from the node is 3 mm deep in it. */
 TEST(a_scale_that_changes_carries_the_hip_into_what_it_meets) {
-    knurl_session *s = make_session();
+    SCOPED_SESSION *s = make_session();
     const knurl_session_desc desc = describe("fake", "");
     const knurl_workspace start = at(0.0, 0.0, 1.0);
     const knurl_workspace to = at(0.0, 0.0, 2.0);
@@ -116,12 +111,11 @@ TEST(a_scale_that_changes_carries_the_hip_into_what_it_meets) {
     step(s, 140); /* 0.2 s times ln 2 */
     CHECK_CLOSE(state_of(s).hip[2], -0.008, 1e-9);
     CHECK_CLOSE(state_of(s).force[2], STIFFNESS * 0.003, 1e-6);
-    knurl_session_destroy(s);
 }
 
 /* The hand goes from 20 mm to 10 mm meanwhile; on it goes from where the HIP stayed, twice as far as the hand. */
 TEST(a_scale_that_changes_with_the_clutch_leaves_the_hip) {
-    knurl_session *s = pressed();
+    SCOPED_SESSION *s = pressed();
     const knurl_workspace to = at(0.0, 0.0, 2.0);
     hold(s, 0.02, 0.0, -0.005, 100);
     assert_int_equal(knurl_session_set_clutch(s, 1), KNURL_OK);
@@ -133,21 +127,19 @@ TEST(a_scale_that_changes_with_the_clutch_leaves_the_hip) {
     CHECK_CLOSE(state_of(s).force[2], 2.0, 1e-6);
     hold(s, 0.015, 0.0, -0.005, 100);
     CHECK_VECTOR(state_of(s).hip, 0.03, 0.0, -0.005, 1e-9);
-    knurl_session_destroy(s);
 }
 
 TEST(a_scale_that_is_none_is_refused) {
-    knurl_session *s = pressed();
+    SCOPED_SESSION *s = pressed();
     const knurl_workspace to = at(0.0, 0.0, 0.0);
     assert_int_equal(knurl_session_move_workspace(s, KNURL_SESSION_FRAMES, &to), KNURL_ERROR_ARGUMENT);
     step(s, 10);
     CHECK_VECTOR(state_of(s).hip, 0.0, 0.0, -0.005, 1e-9);
-    knurl_session_destroy(s);
 }
 
 /* The hand goes 30 mm to the left with the clutch held; then as far to the right without. */
 TEST(a_clutch_lets_the_hand_go_back_while_the_hip_stays) {
-    knurl_session *s = pressed();
+    SCOPED_SESSION *s = pressed();
     hold(s, 0.02, 0.0, -0.005, 100);
     assert_int_equal(knurl_session_set_clutch(s, 1), KNURL_OK);
     hold(s, -0.01, 0.0, -0.005, 100);
@@ -159,14 +151,13 @@ TEST(a_clutch_lets_the_hand_go_back_while_the_hip_stays) {
     CHECK_CLOSE(state_of(s).force[2], 2.0, 1e-6);
     hold(s, 0.01, 0.0, -0.005, 100);
     CHECK_VECTOR(state_of(s).hip, 0.04, 0.0, -0.005, 1e-9);
-    knurl_session_destroy(s);
 }
 
 /* A quarter turn about z of the node: what the clutch has moved the workspace by is turned along. */
 TEST(what_a_clutch_has_moved_goes_with_the_node) {
     static const double quarter[9] = {0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0};
     knurl_workspace to = at(0.0, 0.0, 1.0);
-    knurl_session *s = pressed();
+    SCOPED_SESSION *s = pressed();
     hold(s, 0.02, 0.0, 0.02, 100);
     assert_int_equal(knurl_session_set_clutch(s, 1), KNURL_OK);
     hold(s, 0.0, 0.0, 0.02, 100);
@@ -175,7 +166,6 @@ TEST(what_a_clutch_has_moved_goes_with_the_node) {
     move(s, &to);
     hold(s, 0.0, 0.0, 0.02, 200);
     CHECK_VECTOR(state_of(s).hip, 0.0, 0.02, 0.02, 1e-9);
-    knurl_session_destroy(s);
 }
 
 /* A device whose stylus is turned by a quarter about its z, in a workspace that is turned by a quarter about x. */
@@ -199,7 +189,7 @@ static void get_info(void *user, knurl_device_info *info) {
 
 TEST(a_styluss_orientation_is_told_in_scene_axes) {
     static const double over[9] = {1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0};
-    knurl_session *s = make_session();
+    SCOPED_SESSION *s = make_session();
     knurl_session_desc desc = describe("fake", "");
     knurl_device_functions functions;
     memcpy(desc.workspace.rotation, over, sizeof over);
@@ -218,5 +208,4 @@ TEST(a_styluss_orientation_is_told_in_scene_axes) {
     CHECK_CLOSE(now.stylus[3], 0.5, 1e-12);
     knurl_session_close(s);
     CHECK_VECTOR(state_of(s).stylus, 0.0, 0.0, 0.0, 0.0);
-    knurl_session_destroy(s);
 }

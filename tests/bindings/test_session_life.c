@@ -77,17 +77,16 @@ TEST(the_defaults_are_a_fake_device_at_1_khz) {
 
 TEST(nothing_starts_that_is_closed) {
     char warning[8] = "as was";
-    knurl_session *s = make_session();
+    SCOPED_SESSION *s = make_session();
     CHECK_REFUSED(knurl_session_start(s, warning, sizeof warning), KNURL_ERROR_STATE, warning);
     check_message("closed");
     check_closed(s);
-    knurl_session_destroy(s);
 }
 
 TEST(nothing_is_opened_or_started_twice) {
     const knurl_session_desc desc = describe("mouse", "");
     char warning[8] = "as was";
-    knurl_session *s = make_session();
+    SCOPED_SESSION *s = make_session();
     open_fake(s);
     const knurl_device *device = knurl_session_get_device(s);
     assert_int_equal(knurl_session_open(s, &desc), KNURL_ERROR_STATE);
@@ -99,7 +98,6 @@ TEST(nothing_is_opened_or_started_twice) {
     check_message("started");
     assert_int_equal(knurl_session_open(s, &desc), KNURL_ERROR_STATE);
     assert_true(knurl_session_get_loop(s) == loop && state_of(s).running);
-    knurl_session_destroy(s);
 }
 
 TEST(what_cannot_be_opened_is_named_and_leaves_it_closed) {
@@ -109,7 +107,7 @@ TEST(what_cannot_be_opened_is_named_and_leaves_it_closed) {
     const knurl_result codes[10] = {[5] = KNURL_ERROR_UNKNOWN, [6] = KNURL_ERROR_UNKNOWN};
     const char *words[10] = {"update_rate_hz",       "update_rate_hz", "heartbeat_s", "reconnect", "clamp",
                              "'nonsense'; or mouse", "wiggle",         "scale",       "bytes",     "speed"};
-    knurl_session *s = make_session();
+    SCOPED_SESSION *s = make_session();
     for (int i = 0; i < 10; i++) {
         bad[i] = good;
     }
@@ -131,7 +129,6 @@ TEST(what_cannot_be_opened_is_named_and_leaves_it_closed) {
     }
     assert_int_equal(knurl_session_open(s, NULL), KNURL_ERROR_ARGUMENT);
     assert_int_equal(knurl_session_open(s, &good), KNURL_OK);
-    knurl_session_destroy(s);
 }
 
 /* The library is one that a program may name. */
@@ -148,16 +145,15 @@ TEST(a_scene_cannot_name_a_library_to_run) {
         assert_null(knurl_session_get_device(s));
     }
     knurl_session_destroy(s);
-    knurl_device *device = NULL;
+    SCOPED_DEVICE *device = NULL;
     assert_int_equal(knurl_device_open("touch:?library=" KNURL_TEST_HD, &device), KNURL_OK);
-    knurl_device_close(device);
 }
 
 TEST(strings_are_not_kept) {
     char device[] = "fake:?press_at=0.001";
     char stroke[] = "line";
     knurl_session_desc desc = describe(device, stroke);
-    knurl_session *s = make_session();
+    SCOPED_SESSION *s = make_session();
     const knurl_surface_id plate = add_plate(s, 0.0, 0.0, 0.0);
     open_session(s, &desc);
     memset(device, 'x', sizeof device);
@@ -167,26 +163,22 @@ TEST(strings_are_not_kept) {
     step(s, 1000);
     knurl_session_update(s);
     check_event(s, KNURL_SESSION_CONTACT_STARTED, plate);
-    knurl_session_destroy(s);
 }
 
 TEST(no_strings_are_a_fake_device_that_stands_still) {
     knurl_session_desc desc = describe(NULL, NULL);
-    knurl_device_info info;
-    knurl_session *s = make_session();
+    SCOPED_SESSION *s = make_session();
     open_session(s, &desc);
-    knurl_device_info_init(&info, sizeof info);
-    assert_int_equal(knurl_device_get_info(knurl_session_get_device(s), &info), KNURL_OK);
+    const knurl_device_info info = device_info(knurl_session_get_device(s));
     assert_non_null(strstr(info.name, "fake"));
     begin(s);
     step(s, 500);
     const knurl_session_state now = state_of(s);
     CHECK_VECTOR(now.hip, 0.0, 0.0, 0.0, 0.001); /* a hand trembles, a joint sticks: 0.26 N / 700 N/m */
-    knurl_session_destroy(s);
 }
 
 TEST(surfaces_outlive_runs) {
-    knurl_session *s = make_session();
+    SCOPED_SESSION *s = make_session();
     knurl_scene *scene = knurl_session_get_scene(s);
     const knurl_surface_id plate = add_plate(s, 0.0, 0.0, 0.0);
     for (int round = 0; round < 3; round++) {
@@ -203,11 +195,10 @@ TEST(surfaces_outlive_runs) {
         assert_ptr_equal(knurl_session_get_scene(s), scene);
         assert_int_equal(knurl_scene_get_surface_count(scene), 1);
     }
-    knurl_session_destroy(s);
 }
 
 TEST(surfaces_may_come_before_between_and_during_runs) {
-    knurl_session *s = make_session();
+    SCOPED_SESSION *s = make_session();
     for (int round = 0; round < 3; round++) {
         (void)add_plate(s, 0.2 * (3 * round), 0.0, 0.0);
         open_fake(s);
@@ -221,15 +212,13 @@ TEST(surfaces_may_come_before_between_and_during_runs) {
         }
         knurl_session_close(s);
     }
-    knurl_session_destroy(s);
 }
 
 TEST(a_scene_that_the_caller_committed_is_fine) {
-    knurl_session *s = make_session();
+    SCOPED_SESSION *s = make_session();
     assert_int_equal(knurl_scene_commit(knurl_session_get_scene(s)), KNURL_OK);
     open_fake(s);
     start(s);
-    knurl_session_destroy(s);
 }
 
 TEST(destroying_what_runs_ends_its_threads) {
@@ -316,11 +305,10 @@ TEST(sessions_are_destroyed_on_another_thread_while_all_are_closed) {
             assert_non_null(threads[i]);
         }
         assert_in_range(knurl_session_close_all(), 0, 2);
-        knurl_session *one = make_session();
+        SCOPED_SESSION *one = make_session();
         for (int i = 0; i < 4; i++) {
             knurl_system_join_thread(threads[i]);
         }
-        knurl_session_destroy(one);
     }
 }
 

@@ -102,7 +102,7 @@ TEST(a_frame_asks_for_no_memory) {
     char text[256];
     float rows[64];
     int told = 0;
-    knurl_session *s = make_session();
+    SCOPED_SESSION *s = make_session();
     (void)add_plate(s, 0.0, 0.0, 0.0);
     (void)add_plate(s, 0.2, 0.0, 0.0);
     open_session(s, &desc);
@@ -120,5 +120,4 @@ TEST(a_frame_asks_for_no_memory) {
         assert_true(requests == 0);
     }
     assert_true(told > 40);
-    knurl_session_destroy(s);
 }

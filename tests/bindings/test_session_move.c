@@ -155,7 +155,7 @@ TEST(the_game_moves_the_mouse_alone) {
     static const double nowhere[3] = {0.0, INFINITY, 0.0};
     const knurl_session_desc fake = describe("fake", "");
     const knurl_session_desc mouse = describe("mouse", "");
-    knurl_session *s = make_session();
+    SCOPED_SESSION *s = make_session();
     assert_int_equal(knurl_session_move_hip(s, here), KNURL_ERROR_STATE);
     check_message("closed");
     open_session(s, &fake);
@@ -166,7 +166,6 @@ TEST(the_game_moves_the_mouse_alone) {
     assert_int_equal(knurl_session_move_hip(s, nowhere), KNURL_ERROR_ARGUMENT);
     check_message("finite");
     assert_int_equal(knurl_session_move_hip(s, here), KNURL_OK);
-    knurl_session_destroy(s);
 }
 
 TEST(the_mouse_is_moved_in_the_scene) {
@@ -174,7 +173,7 @@ TEST(the_mouse_is_moved_in_the_scene) {
     knurl_session_desc desc = describe("mouse", "");
     knurl_device_sample sample;
     double expected[3];
-    knurl_session *s = make_session();
+    SCOPED_SESSION *s = make_session();
     desc.workspace.origin[0] = 1.0;
     desc.workspace.scale = 2.0;
     open_session(s, &desc);
@@ -182,5 +181,4 @@ TEST(the_mouse_is_moved_in_the_scene) {
     assert_int_equal(knurl_device_read(knurl_session_get_device(s), &sample), KNURL_OK);
     knurl_workspace_to_device(&desc.workspace, there, expected);
     CHECK_VECTOR(sample.position, expected[0], expected[1], expected[2], 0.0);
-    knurl_session_destroy(s);
 }

@@ -48,7 +48,7 @@ static void play_by_hand(const knurl_session_desc *how, recording *r) {
     knurl_loop *loop = NULL;
     knurl_loop_desc desc;
     knurl_hip_desc hip;
-    knurl_scene *scene = empty_scene(1);
+    SCOPED_SCENE *scene = empty_scene(1);
     (void)add_rough_plate(scene);
     assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
     for (int i = 0; i < ROWS; i++) {
@@ -71,13 +71,12 @@ static void play_by_hand(const knurl_session_desc *how, recording *r) {
     assert_int_equal(knurl_loop_step(loop, TICKS), KNURL_OK);
     knurl_loop_destroy(loop);
     knurl_device_close(device);
-    knurl_scene_destroy(scene);
 }
 
 static void check_same_forces(const knurl_session_desc *how) {
     static recording expected;
     static double forces[3 * TICKS];
-    knurl_session *s = make_session();
+    SCOPED_SESSION *s = make_session();
     uint64_t played = 0;
     double largest = 0.0;
     (void)add_rough_plate(knurl_session_get_scene(s));
@@ -96,7 +95,6 @@ static void check_same_forces(const knurl_session_desc *how) {
         largest = fmax(largest, fabs(forces[i]));
     }
     assert_true(largest > 0.3); /* something is felt */
-    knurl_session_destroy(s);
 }
 
 TEST(a_path_gives_the_bits_of_a_loop_that_is_stepped) {
@@ -116,26 +114,24 @@ TEST(rows_and_forces_are_the_scenes) {
     static double forces[3 * TICKS];
     const double rows[8] = {0.0, 0.0, 0.0, 0.005, 0.2, 0.0, 0.0, -0.001};
     knurl_session_desc desc = describe("fake", "");
-    knurl_session *s = make_session();
+    SCOPED_SESSION *s = make_session();
     uint64_t played = 0;
     (void)add_plate(s, 0.0, 0.0, 0.0);
     desc.workspace = turned();
     open_session(s, &desc);
     assert_int_equal(knurl_session_play(s, rows, 2, TICKS, forces, &played), KNURL_OK);
     CHECK_VECTOR(forces + 3 * (TICKS - 1), 0.0, 0.0, STIFFNESS * 0.001, 1e-6);
-    knurl_session_destroy(s);
 }
 
 TEST(a_device_that_gets_lost_plays_fewer_ticks) {
     static double forces[3 * TICKS];
     knurl_session_desc desc = describe("fake:?lose_at=0.1", "");
-    knurl_session *s = make_session();
+    SCOPED_SESSION *s = make_session();
     uint64_t played = 0;
     desc.reconnect = 0;
     open_session(s, &desc);
     assert_int_equal(knurl_session_play(s, path, ROWS, TICKS, forces, &played), KNURL_OK);
     assert_int_equal(played, 100);
-    knurl_session_destroy(s);
 }
 
 TEST(what_cannot_be_played_is_refused) {
@@ -143,7 +139,7 @@ TEST(what_cannot_be_played_is_refused) {
     const double nan[4] = {0.0, NAN, 0.0, 0.0};
     const knurl_session_desc fake = describe("fake", "");
     const knurl_session_desc mouse = describe("mouse", "");
-    knurl_session *s = make_session();
+    SCOPED_SESSION *s = make_session();
     struct {
         double forces[3];
         uint64_t played;
@@ -173,5 +169,4 @@ TEST(what_cannot_be_played_is_refused) {
     check_message("started");
     CHECK_REFUSED(knurl_session_start(s, NULL, 0), KNURL_ERROR_STATE, out);
     assert_int_equal(state_of(s).running, 0);
-    knurl_session_destroy(s);
 }

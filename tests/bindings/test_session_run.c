@@ -32,7 +32,7 @@ TEST(a_stroke_over_the_first_surface_is_felt_and_told) {
     const knurl_session_desc desc = describe("fake", "press");
     static float rows[2 * KNURL_SESSION_HISTORY];
     knurl_session_event event;
-    knurl_session *s = make_session();
+    SCOPED_SESSION *s = make_session();
     const knurl_surface_id plate = add_plate(s, 0.02, 0.01, 0.005);
     run(s, &desc);
     assert_int_equal(state_of(s).running, 1);
@@ -52,14 +52,13 @@ TEST(a_stroke_over_the_first_surface_is_felt_and_told) {
     knurl_session_close(s);
     check_event(s, KNURL_SESSION_CONTACT_ENDED, plate);
     check_no_event(s);
-    knurl_session_destroy(s);
 }
 
 /* No update is needed in a pause: a heartbeat that is not asked for is no fault. */
 TEST(a_pause_takes_the_force_away_and_its_end_brings_it_back) {
     knurl_session_desc desc = describe("fake", "rest");
     desc.heartbeat_s = 0.1;
-    knurl_session *s = make_session();
+    SCOPED_SESSION *s = make_session();
     const knurl_surface_id plate = add_plate(s, 0.0, 0.0, 0.005);
     run(s, &desc);
     assert_int_equal(state_of(s).paused, 0);
@@ -86,12 +85,11 @@ TEST(a_pause_takes_the_force_away_and_its_end_brings_it_back) {
     }
     knurl_session_set_paused(s, 0);
     CHECK_UNTIL(s, feels(s));
-    knurl_session_destroy(s);
 }
 
 TEST(a_session_can_start_paused) {
     const knurl_session_desc desc = describe("fake", "rest");
-    knurl_session *s = make_session();
+    SCOPED_SESSION *s = make_session();
     (void)add_plate(s, 0.0, 0.0, 0.005);
     knurl_session_set_paused(s, 1);
     run(s, &desc);
@@ -101,12 +99,11 @@ TEST(a_session_can_start_paused) {
     knurl_session_set_paused(s, 0);
     run(s, &desc);
     CHECK_UNTIL(s, feels(s));
-    knurl_session_destroy(s);
 }
 
 TEST(while_a_game_hangs_its_device_has_no_force) {
     knurl_session_desc desc = describe("fake", "rest");
-    knurl_session *s = make_session();
+    SCOPED_SESSION *s = make_session();
     (void)add_plate(s, 0.0, 0.0, 0.0);
     desc.heartbeat_s = 0.05;
     run(s, &desc);
@@ -120,12 +117,11 @@ TEST(while_a_game_hangs_its_device_has_no_force) {
         assert_int_equal(state_of(s).in_contact, 1);
         CHECK_UNTIL(s, is_told(s, KNURL_SESSION_FAULT, KNURL_FAULT_HEARTBEAT));
     }
-    knurl_session_destroy(s);
 }
 
 TEST(without_a_heartbeat_a_game_may_be_silent) {
     knurl_session_desc desc = describe("fake", "rest");
-    knurl_session *s = make_session();
+    SCOPED_SESSION *s = make_session();
     (void)add_plate(s, 0.0, 0.0, 0.0);
     desc.heartbeat_s = 0.0;
     run(s, &desc);
@@ -136,13 +132,10 @@ TEST(without_a_heartbeat_a_game_may_be_silent) {
     }
     knurl_session_update(s);
     assert_false(is_told(s, KNURL_SESSION_FAULT, KNURL_FAULT_HEARTBEAT));
-    knurl_session_destroy(s);
 }
 
 static uint64_t count_absences(knurl_session *s) {
-    knurl_loop_stats stats;
-    knurl_loop_stats_init(&stats, sizeof stats);
-    assert_int_equal(knurl_loop_get_stats(knurl_session_get_loop(s), &stats), KNURL_OK);
+    const knurl_loop_stats stats = loop_stats(knurl_session_get_loop(s));
     return stats.absences;
 }
 
@@ -151,7 +144,7 @@ TEST(a_mouse_is_nowhere_until_it_moves_and_then_feels) {
     static const double above[3] = {0.0, 0.0, 0.01};
     static const double below[3] = {0.0, 0.0, -0.001};
     const knurl_session_desc desc = describe("mouse", "line");
-    knurl_session *s = make_session();
+    SCOPED_SESSION *s = make_session();
     (void)add_plate(s, 0.0, 0.0, 0.0);
     run(s, &desc);
     while (count_absences(s) < 30) { /* silence is told after 10 */
@@ -164,29 +157,26 @@ TEST(a_mouse_is_nowhere_until_it_moves_and_then_feels) {
     CHECK_UNTIL(s, state_of(s).ticks > 10);
     assert_int_equal(knurl_session_move_hip(s, below), KNURL_OK);
     CHECK_UNTIL(s, fabs(state_of(s).force[2] - STIFFNESS * 0.001) < 1e-3);
-    knurl_session_destroy(s);
 }
 
 TEST(losing_the_device_ends_the_run_where_it_is_not_looked_for) {
     knurl_session_desc desc = describe("fake:?lose_at=0.1", "");
-    knurl_session *s = make_session();
+    SCOPED_SESSION *s = make_session();
     desc.reconnect = 0;
     run(s, &desc);
     CHECK_UNTIL(s, is_told(s, KNURL_SESSION_FAULT, KNURL_FAULT_LOST));
     CHECK_UNTIL(s, is_told(s, KNURL_SESSION_ENDED, 0));
     assert_int_equal(state_of(s).running, 0);
     assert_int_equal(knurl_session_close_all(), 0);
-    knurl_session_destroy(s);
 }
 
 TEST(else_it_is_found_again) {
     const knurl_session_desc desc = describe("fake:?lose_at=0.1", "");
-    knurl_session *s = make_session();
+    SCOPED_SESSION *s = make_session();
     run(s, &desc);
     CHECK_UNTIL(s, is_told(s, KNURL_SESSION_FAULT, KNURL_FAULT_RECONNECTED));
     CHECK_UNTIL(s, state_of(s).ticks > 200);
     assert_int_equal(state_of(s).running, 1);
-    knurl_session_destroy(s);
 }
 
 /* Edits, closes and starts from the game's thread against the haptic one: for the thread sanitizer. */
@@ -196,7 +186,7 @@ TEST(a_game_does_what_it_likes_while_it_runs) {
     knurl_session_event event;
     char text[512];
     static float rows[2 * 256];
-    knurl_session *s = make_session();
+    SCOPED_SESSION *s = make_session();
     for (int round = 0; round < 3; round++) {
         const knurl_surface_id plate = add_plate(s, 0.0, 0.0, 0.0);
         knurl_session_way way = {.clock = KNURL_SESSION_FRAMES};
@@ -218,5 +208,4 @@ TEST(a_game_does_what_it_likes_while_it_runs) {
         knurl_session_close(s);
         check_no_event(s);
     }
-    knurl_session_destroy(s);
 }

@@ -42,13 +42,12 @@ static float play(knurl_session *s, knurl_sound *sound, double step, int periods
 }
 
 TEST(a_stroke_sounds_and_a_rest_is_exact_silence) {
-    knurl_session *s = ridges();
+    SCOPED_SESSION *s = ridges();
     knurl_sound *sound = sound_of(s);
     assert_true(play(s, sound, 0.001, 100) > 0.01F); /* 100 mm/s: 100 Hz */
     (void)play(s, sound, 0.0, 60);
     assert_true(play(s, sound, 0.0, 5) == 0.0F);
     knurl_sound_release(sound);
-    knurl_session_destroy(s);
 }
 
 TEST(a_sound_outlives_its_run_and_fades) {
@@ -63,7 +62,7 @@ TEST(a_sound_outlives_its_run_and_fades) {
 
 TEST(a_run_has_one_sound_and_the_next_run_another) {
     const knurl_session_desc desc = describe("fake", "");
-    knurl_session *s = ridges();
+    SCOPED_SESSION *s = ridges();
     knurl_sound *first = sound_of(s);
     knurl_sound *again = sound_of(s);
     assert_ptr_equal(first, again);
@@ -75,7 +74,6 @@ TEST(a_run_has_one_sound_and_the_next_run_another) {
     assert_ptr_not_equal(first, next);
     knurl_sound_release(first);
     knurl_sound_release(next);
-    knurl_session_destroy(s);
 }
 
 TEST(a_sound_needs_a_run_and_a_sample_rate) {

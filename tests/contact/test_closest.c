@@ -63,10 +63,10 @@ static int64_t times(int64_t queries) {
 TEST(oracle_agrees_with_brute_force) {
     for (uint64_t i = 0; i < 4; i++) {
         uint64_t seed = 1000 + i;
-        shape s = i == 0   ? body_wavy(12)
-                  : i == 1 ? body_torus(24, 10)
-                  : i == 2 ? body_soup(7, 200)
-                           : body_lump(5, 2, 0.1);
+        SCOPED_SHAPE s = i == 0   ? body_wavy(12)
+                         : i == 1 ? body_torus(24, 10)
+                         : i == 2 ? body_soup(7, 200)
+                                  : body_lump(5, 2, 0.1);
         oracle o = oracle_make(&s);
         for (int k = 0; k < 1000; k++) {
             double at[3];
@@ -74,7 +74,6 @@ TEST(oracle_agrees_with_brute_force) {
             CHECK_CLOSE(oracle_distance(&o, at), shape_distance(&s, at), TOLERANCE);
         }
         oracle_free(&o);
-        shape_free(&s);
     }
 }
 

@@ -3,7 +3,7 @@
 #include "flat_outcome.h"
 
 TEST(rectangular_sheet_becomes_a_rectangle_about_its_middle) {
-    shape s = DRAWING("########", "########", "########", "########");
+    SCOPED_SHAPE s = DRAWING("########", "########", "########", "########");
     outcome o = decide(&s);
     assert_string_equal(o.why, "plane: a flat mesh, a rectangle");
     assert_null(o.plane->outline);
@@ -23,7 +23,6 @@ TEST(rectangular_sheet_becomes_a_rectangle_about_its_middle) {
     CHECK_CLOSE(o.plane->map[1][1], 1.0, 1e-12);
     CHECK_CLOSE(o.plane->map[1][2], middle[1], 1e-12);
     forget(&o);
-    shape_free(&s);
 }
 
 TEST(outline_is_what_was_drawn) {
@@ -75,7 +74,7 @@ TEST(sheet_without_shared_vertices_has_the_same_outline) {
 }
 
 TEST(sheet_without_indices_has_the_same_outline) {
-    shape s = DRAWING("#...", "#...", "####");
+    SCOPED_SHAPE s = DRAWING("#...", "#...", "####");
     shape_unweld(&s);
     knurl_mesh_desc desc = shape_desc(&s);
     desc.indices = NULL;
@@ -85,7 +84,6 @@ TEST(sheet_without_indices_has_the_same_outline) {
     assert_int_equal(o.plane->edge_count, 6);
     CHECK_CLOSE(flat_area(o.plane, &length), 6.0 * CELL * CELL, 1e-12);
     forget(&o);
-    shape_free(&s);
 }
 
 /* Rows of bricks: the long side of one is covered by two halves, by thirds, and by both. */
@@ -142,7 +140,7 @@ TEST(hole_beside_a_long_edge_has_an_outline_of_its_own) {
 }
 
 TEST(duplicates_slivers_and_unused_vertices_change_nothing) {
-    shape s = DRAWING("#...", "#...", "####");
+    SCOPED_SHAPE s = DRAWING("#...", "#...", "####");
     const uint32_t *t = s.indices;
     flat_add(&s, t[0], t[1], t[2]);
     t = s.indices;
@@ -161,7 +159,6 @@ TEST(duplicates_slivers_and_unused_vertices_change_nothing) {
     assert_string_equal(o.why, "plane: a flat mesh with its outline");
     CHECK_CLOSE(flat_area(o.plane, &length), 6.0 * CELL * CELL, 1e-12);
     forget(&o);
-    shape_free(&s);
 }
 
 static void add_twins(shape *s, uint32_t count) {
@@ -171,7 +168,7 @@ static void add_twins(shape *s, uint32_t count) {
 }
 
 TEST(sheet_of_reversed_twins_is_double_sided) {
-    shape s = DRAWING("#...", "#...", "####");
+    SCOPED_SHAPE s = DRAWING("#...", "#...", "####");
     add_twins(&s, 12);
     flat_add(&s, s.indices[0], s.indices[2], s.indices[1]); /* the twin once more */
     outcome o = decide(&s);
@@ -183,14 +180,13 @@ TEST(sheet_of_reversed_twins_is_double_sided) {
     assert_int_equal(o.plane->double_sided, 1);
     CHECK_CLOSE(o.rotation[8], 1.0, 1e-12); /* the first triangle says where the front is */
     forget(&o);
-    shape_free(&s);
 }
 
 TEST(twins_give_the_front_its_own_uvs_whichever_comes_first) {
-    shape s = DRAWING("##", "##");
+    SCOPED_SHAPE s = DRAWING("##", "##");
     shape_unweld(&s);
     const uint32_t count = s.index_count;
-    shape both = shape_new(2 * count, 2 * count, 1);
+    SCOPED_SHAPE both = shape_new(2 * count, 2 * count, 1);
     for (uint32_t i = 0; s.uvs && i < 2 * count;
          i++) { /* front, back, then back, front, and so on; the back is mirrored */
         const uint32_t pair = i / 6;
@@ -208,8 +204,6 @@ TEST(twins_give_the_front_its_own_uvs_whichever_comes_first) {
     CHECK_CLOSE(o.plane->map[0][0], 1.0, 1e-9);
     CHECK_CLOSE(o.plane->map[0][2], CELL, 1e-9);
     forget(&o);
-    shape_free(&both);
-    shape_free(&s);
 }
 
 TEST(sheet_with_a_twin_missing_stays_a_mesh) {
@@ -318,7 +312,7 @@ TEST(overlapping_triangles_stay_a_mesh) {
 /* A strip whose upper side is bowed by `bow` m: more corners than an outline may have, most of them next to a straight
  * line. What is left of them is as near to all of them as is said. */
 static void check_bowed(double bow) {
-    shape s = shape_sheet(200, 1, (const double[2]){0.05, 0.01}, NULL);
+    SCOPED_SHAPE s = shape_sheet(200, 1, (const double[2]){0.05, 0.01}, NULL);
     for (uint32_t v = 201; v < 402; v++) {
         const double x = (double)s.positions[3 * v];
         s.positions[3 * v + 1] += (float)(bow * (1.0 - x * x / 0.0025));
@@ -337,7 +331,6 @@ static void check_bowed(double bow) {
         assert_true(flat_to_outline(o.plane, turned) <= 1.0001 * o.plane->flatness);
     }
     forget(&o);
-    shape_free(&s);
 }
 
 TEST(corners_next_to_a_straight_line_are_left_out_and_told) {
@@ -347,7 +340,7 @@ TEST(corners_next_to_a_straight_line_are_left_out_and_told) {
 
 /* Two of four corners stand next to each other: what they bound is next to a triangle, and no rectangle. */
 TEST(triangle_with_a_corner_cut_off_is_no_rectangle) {
-    shape s = shape_new(4, 6, 1);
+    SCOPED_SHAPE s = shape_new(4, 6, 1);
     const double places[4][2] = {{0.0, 0.0}, {0.5, 0.0}, {0.5, 0.5 - 0.9e-6}, {0.5 - 0.9e-6, 0.5}};
     for (uint32_t v = 0; v < 4; v++) {
         shape_set(&s, v, places[v][0], places[v][1], 0.0);
@@ -362,7 +355,6 @@ TEST(triangle_with_a_corner_cut_off_is_no_rectangle) {
     CHECK_CLOSE(flat_area(o.plane, &length), 0.125, 1e-6);
     assert_false(knurl_plane_covers(o.plane, (const double[2]){-0.2, 0.2}));
     forget(&o);
-    shape_free(&s);
 }
 
 /* A ring cut open whose turns lie upon each other: every edge has at most one neighbour, and the area of the triangles
@@ -402,7 +394,7 @@ static void give_back(void *memory, size_t size, void *user) {
 }
 
 TEST(refused_memory_leaves_nothing_behind) {
-    shape s = DRAWING("#####", "#...#", "#...#", "#####");
+    SCOPED_SHAPE s = DRAWING("#####", "#...#", "#...#", "#####");
     const knurl_mesh_desc desc = shape_desc(&s);
     const knurl_allocator allocator = {take, give_back, NULL};
     knurl_plane *plane = NULL;
@@ -427,5 +419,4 @@ TEST(refused_memory_leaves_nothing_behind) {
     assert_in_range(refused, 8, 40);
     knurl_plane_destroy(&heap, plane);
     assert_int_equal(heap.bytes, 0);
-    shape_free(&s);
 }

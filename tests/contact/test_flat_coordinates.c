@@ -32,7 +32,7 @@ TEST(uvs_without_area_or_mirrored_in_part_keep_a_mesh) {
 }
 
 TEST(tangents_that_turn_or_stand_up_keep_a_mesh) {
-    shape s = DRAWING("####", "####");
+    SCOPED_SHAPE s = DRAWING("####", "####");
     float tangents[15][4];
     knurl_mesh_desc desc = shape_desc(&s);
     desc.tangents = &tangents[0][0];
@@ -54,7 +54,6 @@ TEST(tangents_that_turn_or_stand_up_keep_a_mesh) {
         assert_string_equal(o.why, cases[i].why);
         forget(&o);
     }
-    shape_free(&s);
 }
 
 TEST(axis_along_the_normal_keeps_a_mesh) {
@@ -72,7 +71,7 @@ TEST(mesh_without_axis_tangents_or_uvs_stays_one) {
 
 TEST(axis_gives_metres_from_the_meshs_origin) {
     const double axis[3] = {0.6, 0.64, 0.48};
-    shape s = DRAWING("#...", "#...", "####");
+    SCOPED_SHAPE s = DRAWING("#...", "#...", "####");
     for (uint32_t v = 0; v < s.vertex_count; v++) {
         s.positions[3 * v + 2] = 0.25F;
     }
@@ -90,11 +89,10 @@ TEST(axis_gives_metres_from_the_meshs_origin) {
     CHECK_CLOSE(o.plane->map[0][2], dot3(o.position, axis), 1e-12); /* what 0.25 m along z adds is in it */
     CHECK_CLOSE(o.plane->map[1][2], (o.position[1] * 0.6 - o.position[0] * 0.64) / length, 1e-12);
     forget(&o);
-    shape_free(&s);
 }
 
 TEST(tangents_alone_give_no_coordinates) {
-    shape s = DRAWING("#...", "#...", "####");
+    SCOPED_SHAPE s = DRAWING("#...", "#...", "####");
     float tangents[20][4];
     for (uint32_t v = 0; v < 20; v++) {
         const float along[4] = {0.0F, 2.0F, 0.0F, 1.0F};
@@ -111,5 +109,4 @@ TEST(tangents_alone_give_no_coordinates) {
     CHECK_CLOSE(o.rotation[3], 1.0, 1e-12); /* its x is the mesh's y */
     CHECK_CLOSE(o.plane->stretch[0][1], 1.0, 0.0);
     forget(&o);
-    shape_free(&s);
 }

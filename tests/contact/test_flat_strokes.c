@@ -137,35 +137,31 @@ static shape drawn(void) {
 }
 
 TEST(drawn_sheet_by_its_uvs_is_felt_as_its_mesh) {
-    shape s = drawn();
+    SCOPED_SHAPE s = drawn();
     const knurl_mesh_desc desc = shape_desc(&s);
     check_all_strokes(&desc, NULL, 10);
-    shape_free(&s);
 }
 
 TEST(star_is_felt_as_its_mesh) {
-    shape s = flat_fan(10, 0.03, 0.012);
+    SCOPED_SHAPE s = flat_fan(10, 0.03, 0.012);
     const knurl_mesh_desc desc = shape_desc(&s);
     check_all_strokes(&desc, NULL, 20);
-    shape_free(&s);
 }
 
 TEST(disc_of_64_edges_is_felt_as_its_mesh) {
-    shape s = flat_fan(64, 0.03, 0.03);
+    SCOPED_SHAPE s = flat_fan(64, 0.03, 0.03);
     const knurl_mesh_desc desc = shape_desc(&s);
     check_all_strokes(&desc, NULL, 30);
-    shape_free(&s);
 }
 
 TEST(sheet_by_an_axis_is_felt_as_its_mesh) {
     const double axis[3] = {0.48, -0.6, 0.64};
-    shape s = drawn();
+    SCOPED_SHAPE s = drawn();
     for (uint32_t v = 0; v < s.vertex_count; v++) {
         s.positions[3 * v + 2] = -0.125F;
     }
     const knurl_mesh_desc desc = shape_desc(&s);
     check_all_strokes(&desc, axis, 40);
-    shape_free(&s);
 }
 
 /* u and v as any affine map; a determinant below 0 mirrors them. */
@@ -185,16 +181,15 @@ TEST(turned_sheared_and_mirrored_uvs_are_felt_as_on_the_mesh) {
                                          {{3.0, 4.0, 0.0}, {-8.0, 6.0, 0.0}},
                                          {{3.0, 4.0, 0.125}, {4.0, 1.0, -0.5}}};
     for (uint64_t i = 0; i < 4; i++) {
-        shape s = drawn();
+        SCOPED_SHAPE s = drawn();
         map_uvs(&s, maps[i]);
         const knurl_mesh_desc desc = shape_desc(&s);
         check_all_strokes(&desc, NULL, 50 + 10 * i);
-        shape_free(&s);
     }
 }
 
 TEST(tangents_are_felt_as_on_the_mesh_with_uvs_and_without) {
-    shape s = drawn();
+    SCOPED_SHAPE s = drawn();
     float *tangents = calloc(s.vertex_count, 4 * sizeof(float));
     assert_non_null(tangents);
     for (uint32_t v = 0; v < s.vertex_count; v++) {
@@ -209,14 +204,13 @@ TEST(tangents_are_felt_as_on_the_mesh_with_uvs_and_without) {
     desc.uvs = NULL;
     check_all_strokes(&desc, NULL, 100);
     free(tangents);
-    shape_free(&s);
 }
 
 TEST(turned_sheet_far_from_the_origin_is_felt_as_its_mesh) {
     const double turned[4] = {0.1, -0.3, 0.5, sqrt(1.0 - 0.35)};
     static const double offsets[2][3] = {{0.01, 0.02, -0.03}, {1.5, -2.5, 0.75}};
     for (uint64_t i = 0; i < 2; i++) {
-        shape s = drawn();
+        SCOPED_SHAPE s = drawn();
         flat_move(&s, turned, offsets[i]);
         const knurl_mesh_desc desc = shape_desc(&s);
         const double axis[3] = {0.48, -0.6, 0.64};
@@ -225,23 +219,21 @@ TEST(turned_sheet_far_from_the_origin_is_felt_as_its_mesh) {
         assert_int_equal(p.made->edge_count, 32);
         pair_free(&p);
         check_all_strokes(&desc, axis, 110 + 10 * i);
-        shape_free(&s);
     }
 }
 
 TEST(turned_sheet_by_its_uvs_is_felt_as_its_mesh) {
     const double turned[4] = {0.1, -0.3, 0.5, sqrt(1.0 - 0.35)};
-    shape s = drawn();
+    SCOPED_SHAPE s = drawn();
     flat_move(&s, turned, (const double[3]){0.02, 0.0, -0.01});
     const knurl_mesh_desc desc = shape_desc(&s);
     check_all_strokes(&desc, NULL, 140);
-    shape_free(&s);
 }
 
 /* Bricks, whose joints are not in line: a plane does not know of them. */
 TEST(sheet_with_t_junctions_is_felt_as_its_mesh) {
     static const uint32_t cuts[] = {1, 2, 3, 7};
-    shape s = shape_new(52, 78, 1);
+    SCOPED_SHAPE s = shape_new(52, 78, 1);
     uint32_t v = 0;
     uint32_t at = 0;
     for (uint32_t j = 0; j < COUNT_OF(cuts); j++) {
@@ -259,12 +251,11 @@ TEST(sheet_with_t_junctions_is_felt_as_its_mesh) {
     assert_int_equal(p.made->edge_count, 0);
     pair_free(&p);
     check_all_strokes(&desc, NULL, 150);
-    shape_free(&s);
 }
 
 /* The whole lattice that the corners stand on, and halves of it: rays run through corners and along edges. */
 TEST(points_in_line_with_corners_are_counted_once) {
-    shape s = drawn();
+    SCOPED_SHAPE s = drawn();
     const knurl_mesh_desc desc = shape_desc(&s);
     pair p = pair_of(&desc, NULL);
     static const char *const rows[] = {"##########", "#...#..#.#", "#...#..#.#", "#####....#",
@@ -289,5 +280,4 @@ TEST(points_in_line_with_corners_are_counted_once) {
         }
     }
     pair_free(&p);
-    shape_free(&s);
 }

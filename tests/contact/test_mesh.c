@@ -332,7 +332,7 @@ TEST(twins_are_dropped_and_reversed_ones_make_it_double_sided) {
 }
 
 TEST(indices_may_be_left_out) {
-    shape soup = shape_soup(5, 50, 0.3);
+    SCOPED_SHAPE soup = shape_soup(5, 50, 0.3);
     knurl_mesh_desc desc = shape_desc(&soup);
     knurl_heap heap;
     knurl_mesh *mesh = NULL;
@@ -344,7 +344,6 @@ TEST(indices_may_be_left_out) {
     assert_true(sum_of_corners(mesh->positions, mesh->triangles, 150) ==
                 sum_of_corners(soup.positions, soup.indices, 150));
     knurl_mesh_destroy(&heap, mesh);
-    shape_free(&soup);
 }
 
 TEST(doubled_vertices_are_welded_by_place) {
@@ -381,7 +380,7 @@ static void check_bad(const knurl_mesh_desc *desc, const char *first, const char
 }
 
 TEST(bad_counts_and_indices_are_named) {
-    shape soup = shape_soup(6, 4, 0.3);
+    SCOPED_SHAPE soup = shape_soup(6, 4, 0.3);
     const knurl_mesh_desc good = shape_desc(&soup);
     knurl_mesh_desc bad = good;
     bad.vertex_count = 2;
@@ -406,12 +405,11 @@ TEST(bad_counts_and_indices_are_named) {
     bad = good;
     soup.indices[7] = 12;
     check_bad(&bad, "indices[7]", "found 12");
-    shape_free(&soup);
 }
 
 TEST(numbers_that_are_not_finite_are_named) {
     static const float wrong[] = {NAN, INFINITY, -INFINITY};
-    shape sheet = shape_sheet(2, 2, (const double[2]){1.0, 1.0}, NULL);
+    SCOPED_SHAPE sheet = shape_sheet(2, 2, (const double[2]){1.0, 1.0}, NULL);
     float tangents[9 * 4] = {0};
     knurl_mesh_desc desc = shape_desc(&sheet);
     desc.tangents = tangents;
@@ -426,15 +424,13 @@ TEST(numbers_that_are_not_finite_are_named) {
         check_bad(&desc, "tangents", "vertex 3");
         tangents[4 * 3 + 2] = 0.0f;
     }
-    shape_free(&sheet);
 }
 
 TEST(mesh_without_any_area_is_refused) {
-    shape sheet = shape_sheet(3, 3, (const double[2]){1.0, 1.0}, NULL);
+    SCOPED_SHAPE sheet = shape_sheet(3, 3, (const double[2]){1.0, 1.0}, NULL);
     const knurl_mesh_desc desc = shape_desc(&sheet);
     for (uint32_t v = 0; v < sheet.vertex_count; v++) {
         sheet.positions[3 * v + 1] = sheet.positions[3 * v];
     }
     check_bad(&desc, "area", "18");
-    shape_free(&sheet);
 }

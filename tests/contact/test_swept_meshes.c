@@ -203,8 +203,8 @@ static way read_way(const char *path, coordinate where, const void *of, double t
 /* A sweep of 5 s. */
 static void check_sweep(const char *name, const char *file, const char *surface, double fs, coordinate where,
                         const void *of, double turn_length) {
-    process p = RUN_TOOL("run", file, "--fast", "--stroke", "sweep", "--out", tool_path("swept.csv"),
-                         surface ? "--surface" : NULL, surface);
+    SCOPED_PROCESS p = RUN_TOOL("run", file, "--fast", "--stroke", "sweep", "--out", tool_path("swept.csv"),
+                                surface ? "--surface" : NULL, surface);
     if (p.exit_code != 0) {
         print_error("%s: exit %d: %s", name, p.exit_code, p.err);
     }
@@ -220,13 +220,11 @@ static void check_sweep(const char *name, const char *file, const char *surface,
     CHECK_CLOSE(json_number_of(p.out, "metres"), w.metres, 0.1 * w.metres);
     CHECK_CLOSE(crossed, expected, 0.06 * expected);
     CHECK_CLOSE(played, expected, 0.08 * expected);
-    process_free(&p);
 }
 
 static void check_turned(const char *name, turned *t) {
-    shape s = turn(t);
+    SCOPED_SHAPE s = turn(t);
     check_sweep(name, write_shape(&s, ""), NULL, FS, angle_round, t, t->around);
-    shape_free(&s);
 }
 
 TEST(every_mesh_of_the_demos_assets_is_felt) {
@@ -307,18 +305,16 @@ TEST(a_sphere_that_is_inside_out_is_felt_from_inside) {
 }
 
 TEST(a_bent_sheet_is_felt) {
-    shape s = bent_sheet();
+    SCOPED_SHAPE s = bent_sheet();
     check_sweep("bent sheet", write_shape(&s, ""), NULL, FS, angle_of_sheet, NULL, 0.0);
-    shape_free(&s);
 }
 
 /* By an axis: ridges stand where planes across it would cut the surface. */
 TEST(a_sphere_by_an_axis_is_felt) {
     turned t = {.count = 0};
     add_arc(&t, 0.0, 0.0, 0.03, -0.5 * PI, 0.5 * PI);
-    shape s = turn(&t);
+    SCOPED_SHAPE s = turn(&t);
     check_sweep("sphere, axis x", write_shape(&s, ",\"axis\":[1,0,0]"), NULL, FS, along_x, NULL, 0.0);
-    shape_free(&s);
 }
 
 TEST(the_moon_is_felt) {
@@ -337,14 +333,12 @@ TEST(a_circle_stays_on_a_curved_surface) {
     turned t = {.count = 0, .lying = 1};
     add_point(&t, 0.02, -0.04);
     add_point(&t, 0.02, 0.04);
-    shape s = turn(&t);
-    process p = RUN_TOOL("run", write_shape(&s, ""), "--fast", "--stroke", "circle", "--seconds", "3");
+    SCOPED_SHAPE s = turn(&t);
+    SCOPED_PROCESS p = RUN_TOOL("run", write_shape(&s, ""), "--fast", "--stroke", "circle", "--seconds", "3");
     assert_int_equal(p.exit_code, 0);
     assert_true(json_number_of(p.out, "contact_s") > 2.75);
     assert_true(json_number_of(p.out, "metres") > 0.2); /* 0.1 m/s, from 0.25 s on */
     assert_true(json_number_of(p.out, "half_cycles_played") > 50.0);
-    process_free(&p);
-    shape_free(&s);
 }
 
 /* --- runs that feel nothing --- */
@@ -365,10 +359,9 @@ TEST(a_run_that_never_touches_says_so) {
 /* Half a millimetre across: no room for a stroke. */
 TEST(a_stroke_that_hardly_moves_says_so) {
     static const double half[2] = {0.00025, 0.00025};
-    shape s = shape_sheet(1, 1, half, NULL);
+    SCOPED_SHAPE s = shape_sheet(1, 1, half, NULL);
     process p = RUN_TOOL("run", write_shape(&s, ""), "--fast", "--stroke", "sweep");
     check_nothing_felt(&p, "knurl: run: the stroke over 'shape' is ");
-    shape_free(&s);
 }
 
 TEST(a_press_and_a_short_run_need_not_move) {

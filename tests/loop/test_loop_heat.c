@@ -39,9 +39,7 @@ static double written_now(void) {
 }
 
 static knurl_loop_stats stats(void) {
-    knurl_loop_stats made;
-    knurl_loop_stats_init(&made, sizeof made);
-    assert_int_equal(knurl_loop_get_stats(b.loop, &made), KNURL_OK);
+    const knurl_loop_stats made = loop_stats(b.loop);
     return made;
 }
 

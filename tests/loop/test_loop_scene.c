@@ -55,8 +55,8 @@ static void take(const knurl_tick_output *output, void *user) {
 static void play(record *into, uint64_t steps) {
     static int64_t late[TICKS];
     uint64_t random = 3;
-    knurl_scene *scene = make_scene(1);
-    knurl_device *device = NULL;
+    SCOPED_SCENE *scene = make_scene(1);
+    SCOPED_DEVICE *device = NULL;
     for (size_t i = 0; i < COUNT_OF(late); i++) {
         late[i] = random_integer(&random, 0, i % 40 == 0 ? 5000000 : 300000);
     }
@@ -81,8 +81,6 @@ static void play(record *into, uint64_t steps) {
     }
     assert_int_equal(into->count, TICKS);
     rig_destroy(&r);
-    knurl_device_close(device);
-    knurl_scene_destroy(scene);
 }
 
 static void check_same_record(const record *a, const record *b) {
@@ -110,7 +108,7 @@ TEST_WITH(stepping_and_a_thread_give_the_same_forces_tick_for_tick, NULL, end_ri
 TEST_WITH(the_tick_callback_sees_each_tick_once_with_the_force_that_is_written, NULL, end_rig) {
     static record seen;
     memset(&seen, 0, sizeof seen);
-    knurl_scene *scene = make_scene(1);
+    SCOPED_SCENE *scene = make_scene(1);
     rig_init(&r);
     r.desc.scene = scene;
     r.desc.force_callback = NULL;
@@ -125,7 +123,6 @@ TEST_WITH(the_tick_callback_sees_each_tick_once_with_the_force_that_is_written, 
     }
     rig_destroy(&r);
     assert_int_equal(seen.count, 50);
-    knurl_scene_destroy(scene);
 }
 
 static void count_writes(const knurl_tick_output *output, void *user) {
@@ -135,7 +132,7 @@ static void count_writes(const knurl_tick_output *output, void *user) {
 
 TEST_WITH(a_recorder_delays_no_force, NULL, end_rig) {
     uint64_t late = 0;
-    knurl_scene *scene = make_scene(1);
+    SCOPED_SCENE *scene = make_scene(1);
     rig_init(&r);
     r.desc.scene = scene;
     r.desc.force_callback = NULL;
@@ -145,7 +142,6 @@ TEST_WITH(a_recorder_delays_no_force, NULL, end_rig) {
     assert_int_equal(knurl_loop_step(r.loop, 50), KNURL_OK);
     rig_destroy(&r);
     assert_int_equal(late, 0); /* each tick's force had been written before */
-    knurl_scene_destroy(scene);
 }
 
 /* After a halt the force climbs back over the ramp, and what is recorded climbs with it. */
@@ -183,8 +179,8 @@ TEST_WITH(a_force_beyond_the_motors_climbs_back_over_the_ramp_as_well, NULL, end
 TEST_WITH(while_it_climbs_back_the_record_tells_what_is_written, NULL, end_rig) {
     static record seen;
     memset(&seen, 0, sizeof seen);
-    knurl_scene *scene = make_scene(1);
-    knurl_device *device = NULL;
+    SCOPED_SCENE *scene = make_scene(1);
+    SCOPED_DEVICE *device = NULL;
     assert_int_equal(knurl_device_open("fake", &device), KNURL_OK);
     rig_init(&r);
     r.desc.device = device;
@@ -204,8 +200,6 @@ TEST_WITH(while_it_climbs_back_the_record_tells_what_is_written, NULL, end_rig) 
     assert_true(seen.outputs[1002].force[1] < 0.25 * seen.outputs[999].force[1]);
     assert_true(seen.outputs[1090].force[1] > 0.1);
     rig_destroy(&r);
-    knurl_device_close(device);
-    knurl_scene_destroy(scene);
 }
 
 /* --- descriptions --- */
@@ -259,7 +253,7 @@ TEST_WITH(a_bad_number_is_refused_and_named, NULL, end_rig) {
 }
 
 TEST_WITH(a_missing_or_contradictory_part_is_refused_and_named, NULL, end_rig) {
-    knurl_scene *scene = make_scene(1);
+    SCOPED_SCENE *scene = make_scene(1);
     rig_init(&r);
     r.desc.device = NULL;
     refuse(KNURL_ERROR_ARGUMENT, "device");
@@ -281,20 +275,18 @@ TEST_WITH(a_missing_or_contradictory_part_is_refused_and_named, NULL, end_rig) {
         knurl_loop *loop;
     } out = {NULL};
     CHECK_REFUSED(knurl_loop_create(NULL, &out.loop), KNURL_ERROR_ARGUMENT, out);
-    knurl_scene_destroy(scene);
 }
 
 TEST_WITH(a_scene_that_is_not_committed_is_refused, NULL, end_rig) {
-    knurl_scene *scene = make_scene(0);
+    SCOPED_SCENE *scene = make_scene(0);
     rig_init(&r);
     r.desc.scene = scene;
     r.desc.force_callback = NULL;
     refuse(KNURL_ERROR_STATE, "committed");
-    knurl_scene_destroy(scene);
 }
 
 TEST_WITH(the_hips_rate_must_be_the_loops_where_it_is_given, NULL, end_rig) {
-    knurl_scene *scene = make_scene(1);
+    SCOPED_SCENE *scene = make_scene(1);
     knurl_hip_desc hip;
     knurl_hip_desc_init(&hip, sizeof hip);
     hip.update_rate_hz = 2000.0;
@@ -308,14 +300,13 @@ TEST_WITH(the_hips_rate_must_be_the_loops_where_it_is_given, NULL, end_rig) {
     r.desc.update_rate_hz = 2000.0;
     rig_create(&r);
     rig_destroy(&r);
-    knurl_scene_destroy(scene);
 }
 
 /* K z = 400 N/m x 20 mm = 8 N: shortened to what the device can do, or to what the HIP was configured for. */
 TEST_WITH(a_hip_takes_its_force_limit_from_its_device_unless_it_has_one, NULL, end_rig) {
     static const double limits[][2] = {{KNURL_DEFAULT, 2.0}, {0.5, 0.5}}; /* given, expected */
     for (size_t i = 0; i < COUNT_OF(limits); i++) {
-        knurl_scene *scene = make_scene(1);
+        SCOPED_SCENE *scene = make_scene(1);
         knurl_hip_desc hip;
         knurl_workspace workspace;
         knurl_tick_output output;
@@ -337,7 +328,6 @@ TEST_WITH(a_hip_takes_its_force_limit_from_its_device_unless_it_has_one, NULL, e
         assert_int_equal(knurl_scene_tick(scene, 0, &deep, &output), KNURL_OK);
         CHECK_CLOSE(output.force[1], limits[i][1], 1e-12);
         assert_true((output.flags & KNURL_TICK_FORCE_LIMIT) != 0);
-        knurl_scene_destroy(scene);
     }
 }
 

@@ -177,9 +177,7 @@ TEST_WITH(what_a_callback_asked_for_and_did_not_get_warms_nothing, NULL, end_ben
     b.desc.heartbeat_s = 0.05;
     bench_create(&b);
     assert_int_equal(knurl_loop_step(b.loop, 60000), KNURL_OK);
-    knurl_loop_stats stats;
-    knurl_loop_stats_init(&stats, sizeof stats);
-    assert_int_equal(knurl_loop_get_stats(b.loop, &stats), KNURL_OK);
+    const knurl_loop_stats stats = loop_stats(b.loop);
     CHECK_SAME(written_now(&b), 0.0L);
     /* 51 ticks of 3.3 N and a ramp warm by 3.3^2/0.88^2 (51 + 7) ms/60 s at most */
     assert_true(stats.heat < 14.1 * 0.075 / 60.0);

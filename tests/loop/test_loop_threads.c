@@ -246,7 +246,7 @@ TEST_WITH(destroying_a_running_loop_takes_the_force_away_and_calls_nobody_afterw
 }
 
 TEST_WITH(a_device_that_is_lost_ends_a_real_run, NULL, end_rig) {
-    knurl_device *device = NULL;
+    SCOPED_DEVICE *device = NULL;
     assert_int_equal(knurl_device_open("fake:?lose_at=0.1", &device), KNURL_OK);
     init_real();
     r.desc.device = device;
@@ -257,7 +257,6 @@ TEST_WITH(a_device_that_is_lost_ends_a_real_run, NULL, end_rig) {
     assert_int_equal(knurl_device_is_halted(device), 1);
     knurl_loop_stop(r.loop);
     rig_destroy(&r);
-    knurl_device_close(device);
 }
 
 /* --- the watchdog --- */

@@ -76,14 +76,12 @@ static void check_felt(const knurl_scene *scene, uint32_t hip, double stiffness)
 
 /* So many more, which come within 20 s on any machine. */
 static void wait_for_ticks(const knurl_loop *loop, uint64_t more) {
-    knurl_loop_stats stats;
-    knurl_loop_stats_init(&stats, sizeof stats);
     const int64_t until = knurl_system_now_ns() + INT64_C(20000) * MS;
-    assert_int_equal(knurl_loop_get_stats(loop, &stats), KNURL_OK);
+    knurl_loop_stats stats = loop_stats(loop);
     more += stats.ticks;
     while (stats.ticks < more && knurl_system_now_ns() < until) {
         knurl_system_sleep_until_ns(knurl_system_now_ns() + MS);
-        assert_int_equal(knurl_loop_get_stats(loop, &stats), KNURL_OK);
+        stats = loop_stats(loop);
     }
     assert_true(stats.ticks >= more);
 }

@@ -55,9 +55,7 @@ static double motor(void) {
 }
 
 static inline knurl_loop_stats stats_of(const knurl_loop *loop) {
-    knurl_loop_stats stats;
-    knurl_loop_stats_init(&stats, sizeof stats);
-    assert_int_equal(knurl_loop_get_stats(loop, &stats), KNURL_OK);
+    const knurl_loop_stats stats = loop_stats(loop);
     return stats;
 }
 

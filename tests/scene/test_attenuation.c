@@ -43,7 +43,7 @@ static knurl_hip_counts counts_of(const knurl_scene *scene) {
 TEST(the_share_that_is_asked_for_is_sent_and_told) {
     static const double shares[] = {0.0, 0.25, 0.5, 0.999, 1.0};
     for (size_t i = 0; i < COUNT_OF(shares); i++) {
-        knurl_scene *scene = wall(KNURL_PROTECT_ALL);
+        SCOPED_SCENE *scene = wall(KNURL_PROTECT_ALL);
         knurl_tick_output told;
         const knurl_tick_output out = tick(scene, -0.005, shares[i], 0); /* 2 N */
         CHECK_CLOSE(out.force[2], 2.0 * (1.0 - shares[i]), 1e-12);
@@ -53,7 +53,6 @@ TEST(the_share_that_is_asked_for_is_sent_and_told) {
         assert_int_equal(knurl_scene_get_tick(scene, 0, &told, NULL), KNURL_OK);
         assert_memory_equal(&told, &out, sizeof out);
         CHECK_CLOSE(counts_of(scene).force_max, 2.0 * (1.0 - shares[i]), 1e-12);
-        knurl_scene_destroy(scene);
     }
 }
 
@@ -61,18 +60,17 @@ TEST(what_is_no_share_sends_nothing) {
     static const double wrong[] = {-1e-9, -1.0,        1.0 + 1e-9,       2.0,
                                    1e300, (double)NAN, (double)INFINITY, -(double)INFINITY};
     for (size_t i = 0; i < COUNT_OF(wrong); i++) {
-        knurl_scene *scene = wall(KNURL_PROTECT_ALL);
+        SCOPED_SCENE *scene = wall(KNURL_PROTECT_ALL);
         const knurl_tick_output out = tick(scene, -0.005, wrong[i], 0);
         CHECK_VECTOR(out.force, 0.0, 0.0, 0.0, 0.0);
         CHECK_VECTOR(out.device_force, 0.0, 0.0, 0.0, 0.0);
         CHECK_SAME(counts_of(scene).force_max, 0.0L);
-        knurl_scene_destroy(scene);
     }
 }
 
 /* theta' = ((F/0.88 N)^2 - theta)/60 s. */
 TEST(what_is_not_sent_warms_no_motor) {
-    knurl_scene *scene = wall(KNURL_PROTECT_ALL & ~KNURL_PROTECT_HEAT);
+    SCOPED_SCENE *scene = wall(KNURL_PROTECT_ALL & ~KNURL_PROTECT_HEAT);
     for (int i = 0; i < 5000; i++) {
         (void)tick(scene, -0.005, 0.5, 0); /* 1 N of 2 */
     }
@@ -81,24 +79,22 @@ TEST(what_is_not_sent_warms_no_motor) {
         (void)tick(scene, -0.005, 1.0, 0);
     }
     CHECK_CLOSE(counts_of(scene).heat, (1.0 - exp(-5.0 / 60.0)) / (0.88 * 0.88) * exp(-1.0), 1e-9);
-    knurl_scene_destroy(scene);
 }
 
 /* 12 N of which 3.3 N can be played: half of that is 1.65 N. */
 TEST(a_share_is_of_what_the_device_can_play) {
-    knurl_scene *scene = wall(KNURL_PROTECT_ALL);
+    SCOPED_SCENE *scene = wall(KNURL_PROTECT_ALL);
     for (int i = 1; i <= 30; i++) {
         (void)tick(scene, -0.001 * i, 0.0, 0);
     }
     const knurl_tick_output out = tick(scene, -0.03, 0.5, 0);
     CHECK_CLOSE(out.force[2], 1.65, 1e-12);
     assert_int_equal(out.flags & KNURL_TICK_FORCE_LIMIT, 0); /* it was not shortened to that */
-    knurl_scene_destroy(scene);
 }
 
 /* From none to whole within a tick: 3.3 N within 5 ms is 0.66 N a tick, from what was sent before. */
 TEST(the_slew_limit_is_from_what_was_sent) {
-    knurl_scene *scene = wall(KNURL_PROTECT_ENTRY);
+    SCOPED_SCENE *scene = wall(KNURL_PROTECT_ENTRY);
     for (int i = 0; i < 20; i++) {
         (void)tick(scene, -0.008, 0.0, 0);
     }
@@ -107,12 +103,11 @@ TEST(the_slew_limit_is_from_what_was_sent) {
     for (int i = 1; i <= 6; i++) {
         CHECK_CLOSE(tick(scene, -0.008, 0.0, 0).force[2], fmin(3.2, 0.66 * i), 1e-12);
     }
-    knurl_scene_destroy(scene);
 }
 
 /* 0.5 m/s is 0.5 mm a tick. */
 TEST(a_wall_that_was_not_felt_comes_back_as_after_an_entry) {
-    knurl_scene *scene = wall(0);
+    SCOPED_SCENE *scene = wall(0);
     for (int i = 0; i < 30; i++) {
         (void)tick(scene, -0.008, 0.0, 0);
     }
@@ -125,24 +120,22 @@ TEST(a_wall_that_was_not_felt_comes_back_as_after_an_entry) {
         const knurl_tick_output out = tick(scene, -0.008, 0.0, 0);
         CHECK_CLOSE(out.force[2], K * fmin(0.008, 0.0005 * i), 1e-12);
     }
-    knurl_scene_destroy(scene);
 }
 
 TEST(what_is_not_finite_is_found_however_little_is_sent) {
     static const double shares[] = {0.0, 0.5, 1.0};
     for (size_t i = 0; i < COUNT_OF(shares); i++) {
-        knurl_scene *scene = wall(KNURL_PROTECT_ALL);
+        SCOPED_SCENE *scene = wall(KNURL_PROTECT_ALL);
         (void)tick(scene, -0.001, shares[i], 0);
         const knurl_tick_output out = tick(scene, (double)NAN, shares[i], 0);
         assert_true((out.flags & KNURL_TICK_NOT_FINITE) != 0);
         CHECK_VECTOR(out.force, 0.0, 0.0, 0.0, 0.0);
-        knurl_scene_destroy(scene);
     }
 }
 
 /* It moves at 0.1 m/s through the wall and stops; 1 mm inside, the next tick is a first one. */
 TEST(a_paused_tick_tells_where_the_hip_is_and_touches_nothing) {
-    knurl_scene *scene = wall(0);
+    SCOPED_SCENE *scene = wall(0);
     for (int i = 0; i < 100; i++) {
         (void)tick(scene, -0.004, 0.0, 0);
     }
@@ -161,5 +154,4 @@ TEST(a_paused_tick_tells_where_the_hip_is_and_touches_nothing) {
     assert_true(counts_of(scene).contact_ticks == touched);
     CHECK_CLOSE(tick(scene, -0.001, 0.0, 0).force[2], K * 0.0005, 1e-3);
     CHECK_CLOSE(tick(scene, -0.001, 0.0, 0).force[2], K * 0.001, 1e-3);
-    knurl_scene_destroy(scene);
 }

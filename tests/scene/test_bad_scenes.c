@@ -22,7 +22,7 @@ static void check_refused(knurl_scene *scene, surface_parts *bad, const char *wo
 
 TEST(bad_meshes_are_refused_while_ticks_go_on) {
     ledger books = {0, 0, 0, 0};
-    shape s = shape_sheet(3, 3, (const double[2]){0.05, 0.05}, bent);
+    SCOPED_SHAPE s = shape_sheet(3, 3, (const double[2]){0.05, 0.05}, bent);
     surface_parts good = surface_plane();
     knurl_scene *scene = scene_with(&books);
     configure_plainly(scene, 0);
@@ -55,7 +55,6 @@ TEST(bad_meshes_are_refused_while_ticks_go_on) {
     check_refused(scene, &bad, "area");
     knurl_scene_destroy(scene);
     assert_int_equal(books.blocks, 0);
-    shape_free(&s);
 }
 
 /* Ticks about a shape, from all over and close to its corners: finite, and never more than K times the depth told. */
@@ -77,10 +76,10 @@ static void probe_all_over(knurl_scene *scene, const shape *s, double scale, uin
 TEST(coordinates_of_any_size_give_finite_forces) {
     static const double sizes[] = {1e-30, 1e-12, 1e3, 1e6, 1e9};
     for (size_t i = 0; i < COUNT_OF(sizes); i++) {
-        shape s = shape_box((const double[3]){sizes[i], sizes[i], sizes[i]}, 0);
+        SCOPED_SHAPE s = shape_box((const double[3]){sizes[i], sizes[i], sizes[i]}, 0);
         surface_parts parts = surface_mesh(&s);
         parts.desc.axis[0] = 1.0;
-        knurl_scene *scene = empty_scene(1);
+        SCOPED_SCENE *scene = empty_scene(1);
         knurl_surface_id id = 77;
         configure_plainly(scene, 0);
         const knurl_result result = knurl_scene_add_surface(scene, surface_ready(&parts), &id);
@@ -96,26 +95,22 @@ TEST(coordinates_of_any_size_give_finite_forces) {
         } else {
             assert_true(strlen(knurl_error_message()) > 10);
         }
-        knurl_scene_destroy(scene);
-        shape_free(&s);
     }
 }
 
 /* One vertex far away from a small shape, as broken exporters leave it. */
 TEST(stray_vertex_far_away_leaves_the_rest_touchable) {
-    shape s = shape_sheet(4, 4, (const double[2]){0.05, 0.05}, bent);
+    SCOPED_SHAPE s = shape_sheet(4, 4, (const double[2]){0.05, 0.05}, bent);
     shape_set(&s, 0, 1e9, 0.0, 0.0); /* a corner: two triangles go there */
     surface_parts parts = surface_mesh(&s);
     parts.desc.axis[0] = 1.0;
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     const double z = bent(0.03125, 0.03125); /* inside a triangle far from the stray one; near its facet */
     (void)tick_at(scene, 0.03, 0.03, z + 0.02);
     const knurl_tick_output out = tick_at(scene, 0.03, 0.03, z - 0.002);
     assert_int_equal(out.contacts, 1);
     assert_true(out.depth > 0.0005 && out.depth < 0.004);
     probe_all_over(scene, &s, 0.05, 6);
-    knurl_scene_destroy(scene);
-    shape_free(&s);
 }
 
 /* --- what is left out is counted --- */
@@ -147,27 +142,25 @@ static shape twice(int reversed, int apart) {
 
 TEST(duplicates_are_left_out_and_counted) {
     for (int apart = 0; apart < 2; apart++) {
-        shape s = twice(0, apart);
+        SCOPED_SHAPE s = twice(0, apart);
         surface_parts parts = surface_mesh(&s);
         parts.desc.axis[0] = 1.0;
-        knurl_scene *scene = scene_of(&parts);
+        SCOPED_SCENE *scene = scene_of(&parts);
         const knurl_surface_info info = info_of(scene);
         assert_int_equal(info.triangle_count, 32);
         assert_int_equal(info.dropped_triangles, 32);
         assert_int_equal(info.reversed_twins, 0);
         assert_int_equal(info.double_sided, 0);
         probe_all_over(scene, &s, 0.05, 7);
-        knurl_scene_destroy(scene);
-        shape_free(&s);
     }
 }
 
 TEST(reversed_twins_make_one_sheet_that_is_touched_from_both_sides) {
     for (int apart = 0; apart < 2; apart++) {
-        shape s = twice(1, apart);
+        SCOPED_SHAPE s = twice(1, apart);
         surface_parts parts = surface_mesh(&s);
         parts.desc.axis[0] = 1.0;
-        knurl_scene *scene = scene_of(&parts);
+        SCOPED_SCENE *scene = scene_of(&parts);
         const knurl_surface_info info = info_of(scene);
         assert_int_equal(info.triangle_count, 32);
         assert_int_equal(info.dropped_triangles, 0);
@@ -178,8 +171,6 @@ TEST(reversed_twins_make_one_sheet_that_is_touched_from_both_sides) {
         (void)tick_at(scene, 0.2, 0.0, 0.0);
         (void)tick_at(scene, 0.0, 0.0, -0.03);
         assert_true(tick_at(scene, 0.0, 0.0, 0.001).force[2] < -0.9 * K * 0.001);
-        knurl_scene_destroy(scene);
-        shape_free(&s);
     }
 }
 
@@ -235,7 +226,7 @@ TEST(heaps_of_random_triangles_are_sorted_out_and_survived) {
         uint32_t count = 0;
         uint32_t dropped = 0;
         uint32_t twins = 0;
-        shape s = shape_new(3 * TRIANGLES, 3 * TRIANGLES, 0);
+        SCOPED_SHAPE s = shape_new(3 * TRIANGLES, 3 * TRIANGLES, 0);
         const int32_t points = (int32_t)random_integer(&draws, 4, 60);
         for (uint32_t i = 0; i < TRIANGLES; i++) {
             int32_t p[3];
@@ -260,21 +251,19 @@ TEST(heaps_of_random_triangles_are_sorted_out_and_survived) {
         parts.desc.axis[1] = 0.9;
         parts.desc.axis[2] = 0.2;
         parts.desc.double_sided = seed % 2 == 0;
-        knurl_scene *scene = scene_of(&parts);
+        SCOPED_SCENE *scene = scene_of(&parts);
         const knurl_surface_info info = info_of(scene);
         assert_int_equal(info.triangle_count, count);
         assert_int_equal(info.reversed_twins, twins);
         assert_int_equal(info.dropped_triangles, dropped);
         probe_all_over(scene, &s, 0.06, seed);
-        knurl_scene_destroy(scene);
-        shape_free(&s);
     }
 }
 
 /* Pages of a book: many sheets share one edge. Along it the HIP is held or not, and nothing breaks. */
 TEST(edges_of_many_triangles_are_survived) {
     enum { PAGES = 40 };
-    shape s = shape_new(2 + 2 * PAGES, 6 * PAGES, 0);
+    SCOPED_SHAPE s = shape_new(2 + 2 * PAGES, 6 * PAGES, 0);
     uint32_t at = 0;
     shape_set(&s, 0, 0.0, -0.05, 0.0);
     shape_set(&s, 1, 0.0, 0.05, 0.0);
@@ -287,13 +276,11 @@ TEST(edges_of_many_triangles_are_survived) {
     surface_parts parts = surface_mesh(&s);
     parts.desc.axis[1] = 1.0;
     parts.material.friction = 0.5;
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     uint64_t seed = 2;
     for (int k = 0; k < 5000; k++) {
         const knurl_tick_output out = tick_at(scene, random_between(&seed, -0.002, 0.002),
                                               random_between(&seed, -0.06, 0.06), random_between(&seed, -0.002, 0.002));
         assert_true(isfinite(length3(out.force)) && length3(out.force) <= KNURL_CONTACTS_MAX * K * 0.1);
     }
-    knurl_scene_destroy(scene);
-    shape_free(&s);
 }

@@ -50,7 +50,7 @@ static shape curved_sheet(void) {
 static void check_strokes(surface_parts *parts, const double direction[3], double (*cycles)(const double p[3])) {
     static const double speeds[] = {0.04, -0.04, 0.21, -0.21};
     for (size_t i = 0; i < COUNT_OF(speeds); i++) {
-        knurl_scene *scene = scene_of(parts);
+        SCOPED_SCENE *scene = scene_of(parts);
         double before = 0.0;
         int compared = 0;
         configure_plainly(scene, 0);
@@ -73,7 +73,6 @@ static void check_strokes(surface_parts *parts, const double direction[3], doubl
             before = now;
         }
         assert_true(compared > 50);
-        knurl_scene_destroy(scene);
     }
 }
 
@@ -120,11 +119,10 @@ static double cycles_sheared(const double p[3]) {
 }
 
 TEST(sheared_uvs_of_a_flat_sheet_are_kept_step_with) {
-    shape s = sheet(sheared, NULL);
+    SCOPED_SHAPE s = sheet(sheared, NULL);
     surface_parts parts = grating_on(&s, KNURL_METHOD_BANDLIMITED);
     check_strokes(&parts, along_x, cycles_sheared);
     check_strokes(&parts, askew, cycles_sheared);
-    shape_free(&s);
 }
 
 /* du/dx from 0.5 to 2 in five steps, u continuous; the scale makes the mean of dx/du, by area, 1. */
@@ -148,31 +146,29 @@ static double cycles_stepped(const double p[3]) {
 }
 
 TEST(stretched_uvs_are_kept_step_with) {
-    shape s = sheet(stepped, NULL);
+    SCOPED_SHAPE s = sheet(stepped, NULL);
     surface_parts parts = grating_on(&s, KNURL_METHOD_BANDLIMITED);
     check_strokes(&parts, along_x, cycles_stepped);
-    shape_free(&s);
 }
 
 /* A crest of 4/pi A is there before the HIP is at the surface, as Eq. 9 has it. */
 TEST(contact_begins_with_its_highest_crest) {
     for (int i = 0; i < 2; i++) {
         surface_parts parts = grating_on(NULL, KNURL_METHOD_BANDLIMITED);
-        knurl_scene *scene = scene_of(&parts);
+        SCOPED_SCENE *scene = scene_of(&parts);
         int contacts = 0;
         configure_plainly(scene, 0);
         for (int k = 0; k < 100; k++) {
             contacts += (int)slide(scene, -0.04 + 0.3e-3 * k, (i ? 1.28 : 1.27) * A, 0.3).contacts;
         }
         assert_true(i ? contacts == 0 : contacts > 95);
-        knurl_scene_destroy(scene);
     }
 }
 
 /* Up for three ticks, and back on the surface farther on. */
 TEST(a_lift_off_leaves_nothing_behind) {
     surface_parts parts = grating_on(NULL, KNURL_METHOD_BANDLIMITED);
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     configure_plainly(scene, 0);
     for (int k = 0; k < 200; k++) {
         const int up = k % 20 >= 17;
@@ -184,14 +180,13 @@ TEST(a_lift_off_leaves_nothing_behind) {
             CHECK_CLOSE(out.height, A * band_harmonics(FS * x, 0.143), BAND_EXACT * A);
         }
     }
-    knurl_scene_destroy(scene);
 }
 
 /* Another material in mid-ridge, and an event of S2's, which is played to its end. */
 TEST(another_material_is_felt_in_the_next_tick) {
     for (int change = 20; change < 26; change++) {
         surface_parts parts = grating_on(NULL, KNURL_METHOD_BANDLIMITED);
-        knurl_scene *scene = scene_of(&parts);
+        SCOPED_SCENE *scene = scene_of(&parts);
         double fs = FS;
         configure_plainly(scene, 0);
         for (int k = 0; k < 60; k++) {
@@ -204,13 +199,12 @@ TEST(another_material_is_felt_in_the_next_tick) {
                 assert_int_equal(knurl_scene_set_material(scene, out.surface, &parts.material), KNURL_OK);
             }
         }
-        knurl_scene_destroy(scene);
     }
 }
 
 TEST(an_event_of_s2_is_played_to_its_end_first) {
     surface_parts parts = grating_on(NULL, KNURL_METHOD_S2);
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     double sum = 0.0;
     configure_plainly(scene, 0);
     for (int k = 0; k < 40; k++) {
@@ -226,14 +220,13 @@ TEST(an_event_of_s2_is_played_to_its_end_first) {
         }
     }
     CHECK_CLOSE(sum, 0.0, 1e-12L * A);
-    knurl_scene_destroy(scene);
 }
 
 /* What slides under a HIP at rest is crossed backwards: 10 ticks a cycle. */
 TEST(a_surface_that_slides_under_a_hip_at_rest_is_kept_step_with) {
     static const double upright[4] = {0.0, 0.0, 0.0, 1.0}, way[3] = {0.01, 0.0, 0.0};
     surface_parts parts = grating_on(NULL, KNURL_METHOD_BANDLIMITED);
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     configure_plainly(scene, 0);
     (void)slide(scene, 0.01012, 0.01, 0.0);
     (void)slide(scene, 0.01012, -DEPTH, 0.0);
@@ -243,7 +236,6 @@ TEST(a_surface_that_slides_under_a_hip_at_rest_is_kept_step_with) {
         CHECK_CLOSE(out.surface_velocity[0], -0.1, 1e-9);
         CHECK_CLOSE(out.height, A * band_harmonics(FS * (0.01012 - 1e-4 * k), 0.1), 2.0L * BAND_EXACT * A);
     }
-    knurl_scene_destroy(scene);
 }
 
 /* A HIP with an encoder of its own, its axes the scene's. */
@@ -264,7 +256,7 @@ static void check_flicker(surface_parts *parts, const double along[3], const dou
                           uint32_t axes) {
     uint64_t seed = 10;
     for (int place = 0; place < 60; place++) {
-        knurl_scene *scene = empty_scene(1);
+        SCOPED_SCENE *scene = empty_scene(1);
         for (int i = 0; i < 3; i++) {
             parts->desc.position[i] = along[i] * (0.25 / (FS * steep) + COUNT * (place / 10.0 - 3.0));
         }
@@ -288,21 +280,19 @@ static void check_flicker(surface_parts *parts, const double along[3], const dou
         if (toggles > 0) {
             fail_msg("place %d: %d toggles", place, toggles);
         }
-        knurl_scene_destroy(scene);
     }
 }
 
 TEST(at_rest_on_an_edge_a_flicker_on_any_axis_does_not_toggle_it) {
     static const double x[3] = {1.0, 0.0, 0.0};
     static const double up[3] = {0.0, 0.0, 1.0};
-    shape curved = curved_sheet();
+    SCOPED_SHAPE curved = curved_sheet();
     surface_parts plane = grating_on(NULL, KNURL_METHOD_BANDLIMITED);
     surface_parts mesh = grating_on(&curved, KNURL_METHOD_BANDLIMITED);
     check_flicker(&plane, x, up, 1.0, 1);
     check_flicker(&plane, x, up, 1.0, 7);
     check_flicker(&mesh, x, up, 1.0, 1);
     check_flicker(&mesh, x, up, 1.0, 7);
-    shape_free(&curved);
 }
 
 /* Turned so that x runs along the count's diagonal: all three axes together move it by sqrt(3) counts. */
@@ -333,7 +323,7 @@ TEST(at_rest_on_an_edge_of_dense_uvs_as_well) {
     static const double half[2] = {0.05, 0.05};
     static const double x[3] = {1.0, 0.0, 0.0};
     static const double up[3] = {0.0, 0.0, 1.0};
-    shape s = shape_sheet(50, 4, half, dome);
+    SCOPED_SHAPE s = shape_sheet(50, 4, half, dome);
     for (uint32_t v = 0; v < s.vertex_count; v++) {
         const float at = s.positions[3 * v];
         s.uvs[2 * v] = at + 2.0f * fmaxf(-0.01f, fminf(0.01f, at));
@@ -342,7 +332,6 @@ TEST(at_rest_on_an_edge_of_dense_uvs_as_well) {
     surface_parts dense = grating_on(&s, KNURL_METHOD_BANDLIMITED);
     check_flicker(&dense, x, up, 3.0 * (0.8 + 0.2 / 3.0), 1);
     check_flicker(&dense, x, up, 3.0 * (0.8 + 0.2 / 3.0), 7);
-    shape_free(&s);
 }
 
 /* 1 mm/s over 20 ridges and back in whole counts, every third of which flickers: 80 edges. */
@@ -366,13 +355,12 @@ static int count_toggles(const shape *mesh, int32_t method) {
 }
 
 TEST(slowly_from_a_noisy_encoder_few_edges_toggle_twice) {
-    shape curved = curved_sheet();
+    SCOPED_SHAPE curved = curved_sheet();
     for (int i = 0; i < 2; i++) {
         const int toggles = count_toggles(i ? &curved : NULL, KNURL_METHOD_BANDLIMITED);
         print_message("%d; S1: %d\n", toggles, count_toggles(i ? &curved : NULL, KNURL_METHOD_S1));
         assert_true(toggles >= 80 && toggles <= 100);
     }
-    shape_free(&curved);
 }
 
 /* Tangents say which way x runs and nothing says where on it the HIP is: cycles of the distance, from the first touch.

@@ -64,7 +64,7 @@ TEST(a_surface_within_its_limits_has_nothing_to_be_warned_of) {
 TEST(a_message_ends_in_whatever_an_older_caller_has_of_it) {
     setting s = plain();
     s.parts.material.stiffness = 4000.0;
-    knurl_scene *scene = scene_in(&s);
+    SCOPED_SCENE *scene = scene_in(&s);
     for (uint32_t room = 1; room < 100; room++) {
         knurl_surface_check older;
         memset(&older, 0x77, sizeof older);
@@ -72,7 +72,6 @@ TEST(a_message_ends_in_whatever_an_older_caller_has_of_it) {
         assert_int_equal(knurl_scene_check_surface(scene, 0, knurl_scene_get_surface(scene, 0), &older), KNURL_OK);
         assert_int_equal(strlen(older.message), room - 1); /* the sentence is longer */
     }
-    knurl_scene_destroy(scene);
 }
 
 TEST(stability_is_the_bound_of_a_delayed_wall_and_says_by_how_much) {
@@ -173,13 +172,12 @@ TEST(clamp_keeps_walls_and_textures_within_their_limits) {
 TEST(checks_of_nothing_are_refused) {
     setting s = plain();
     knurl_surface_check check;
-    knurl_scene *scene = scene_in(&s);
+    SCOPED_SCENE *scene = scene_in(&s);
     knurl_surface_check_init(&check, sizeof check);
     const knurl_surface_id surface = knurl_scene_get_surface(scene, 0);
     assert_int_equal(knurl_scene_check_surface(scene, 1, surface, &check), KNURL_ERROR_ARGUMENT);
     assert_int_equal(knurl_scene_remove_surface(scene, surface), KNURL_OK);
     assert_int_equal(knurl_scene_check_surface(scene, 0, surface, &check), KNURL_ERROR_STALE_ID);
-    knurl_scene_destroy(scene);
 }
 
 /* A long name and every limit at once: five lines, the last one to its end. */

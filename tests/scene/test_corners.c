@@ -109,23 +109,21 @@ TEST(a_hip_pressed_into_a_plane_is_held_by_the_plane_that_it_slides_into) {
 
 TEST(a_hip_pressed_into_a_mesh_is_held_by_the_mesh_that_it_slides_into) {
     shape floor = floor_shape(1);
-    shape wall = wall_shape(1);
+    SCOPED_SHAPE wall = wall_shape(1);
     surface_parts parts[2] = {surface_shape(&floor), surface_shape(&wall)};
     check_corner(parts, 2, "two meshes");
     surface_parts mixed[2] = {floor_plane(), surface_shape(&wall)};
     check_corner(mixed, 2, "a plane and a mesh");
     shape_free(&floor);
-    shape_free(&wall);
 }
 
 TEST(a_floor_that_goes_on_beneath_the_wall_does_not_carry_the_hip_under_it) {
-    shape wall = wall_shape(2);
+    SCOPED_SHAPE wall = wall_shape(2);
     surface_parts parts[2] = {floor_plane(), wall_plane()};
     parts[0].desc.position[0] = 0.0;
     check_corner(parts, 2, "two planes");
     parts[1] = surface_shape(&wall);
     check_corner(parts, 2, "a plane and a mesh");
-    shape_free(&wall);
 }
 
 TEST(a_corner_in_one_mesh_holds_with_a_shared_edge_and_with_one_that_is_split) {
@@ -133,12 +131,11 @@ TEST(a_corner_in_one_mesh_holds_with_a_shared_edge_and_with_one_that_is_split) {
         for (int walls = 1; walls <= 3; walls++) {
             shape floor = floor_shape(floors);
             shape wall = wall_shape(walls);
-            shape both = shape_join(&floor, &wall);
+            SCOPED_SHAPE both = shape_join(&floor, &wall);
             surface_parts parts = surface_shape(&both);
             char what[64];
             (void)snprintf(what, sizeof what, "one mesh, its edge split in %d and %d", floors, walls);
             check_corner(&parts, 1, what);
-            shape_free(&both);
         }
     }
 }
@@ -195,9 +192,9 @@ TEST(a_groove_holds_whose_bottom_edge_is_split_on_one_side) {
 TEST(a_steep_groove_that_moves_keeps_the_hip_out) {
     const double q[4] = {0.0, 0.0, 0.0, 1.0};
     for (int parts = 1; parts <= 3; parts++) {
-        shape s = groove(2.0, parts);
+        SCOPED_SHAPE s = groove(2.0, parts);
         surface_parts mesh = surface_shape(&s);
-        knurl_scene *scene = scene_of(&mesh);
+        SCOPED_SCENE *scene = scene_of(&mesh);
         (void)tick_at(scene, 0.0, 0.001, 0.001);
         for (int k = 1; k <= 60; k++) {
             const double up = 0.001 + 0.0005 * (k / 10.0);
@@ -211,8 +208,6 @@ TEST(a_steep_groove_that_moves_keeps_the_hip_out) {
                 fail_msg("bottom edge split in %d: lost in tick %d", parts, k);
             }
         }
-        knurl_scene_destroy(scene);
-        shape_free(&s);
     }
 }
 
@@ -265,16 +260,14 @@ TEST(a_press_onto_the_edge_that_two_flat_meshes_share_holds) {
 
 TEST(a_mesh_that_touches_itself_is_reported) {
     for (int parts = 1; parts <= 2; parts++) {
-        shape s = groove(0.5, parts);
+        SCOPED_SHAPE s = groove(0.5, parts);
         surface_parts mesh = surface_shape(&s);
         knurl_surface_info info;
-        knurl_scene *scene = scene_of(&mesh);
+        SCOPED_SCENE *scene = scene_of(&mesh);
         knurl_surface_info_init(&info, sizeof info);
         assert_int_equal(knurl_scene_get_surface_info(scene, knurl_scene_get_surface(scene, 0), &info), KNURL_OK);
         assert_int_equal(info.touching_pairs > 0, parts > 1);
         assert_true(info.seam >= 1e-7 && info.seam < 1e-6);
-        knurl_scene_destroy(scene);
-        shape_free(&s);
     }
 }
 
@@ -290,7 +283,7 @@ TEST(a_step_up_between_two_surfaces_is_climbed) {
             parts[k].desc.position[0] = k == 0 ? -0.01 : 0.01;
             parts[k].desc.position[2] = k == 0 ? 0.0 : rises[i];
         }
-        knurl_scene *scene = scene_with(parts, 2, 0);
+        SCOPED_SCENE *scene = scene_with(parts, 2, 0);
         (void)tick_at(scene, -0.004, 0.0, 0.001);
         for (int k = 0; k <= 80; k++) {
             const double x = -0.004 + STEP * k + 3e-6;
@@ -300,6 +293,5 @@ TEST(a_step_up_between_two_surfaces_is_climbed) {
             }
             CHECK_CLOSE(out.depth, DEPTH + (x > 0.0 ? rises[i] : 0.0), 1e-9L);
         }
-        knurl_scene_destroy(scene);
     }
 }

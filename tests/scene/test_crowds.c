@@ -59,7 +59,7 @@ static int is_on_seam(const double at[2], double size) {
 
 /* From its first tick on, which finds it pressed in already, the HIP is held by a floor DEPTH above it. */
 static void check_drag(double size, double along_x, double along_y) {
-    knurl_scene *scene = lay_floor(size, -1, -1, 0.0, NULL);
+    SCOPED_SCENE *scene = lay_floor(size, -1, -1, 0.0, NULL);
     dragged d = {{0.0207, 0.0211}, {STEP * along_x, STEP * along_y}};
     int tiles = 0;
     knurl_surface_id latest = 0;
@@ -79,7 +79,6 @@ static void check_drag(double size, double along_x, double along_y) {
         drag_on(&d, size);
     }
     assert_true(tiles > (int)(0.9 * TICKS * STEP * fmax(along_x, along_y) / size));
-    knurl_scene_destroy(scene);
 }
 
 TEST(a_floor_of_tiles_is_felt_in_every_tick_of_a_straight_drag) {
@@ -100,7 +99,7 @@ TEST(a_floor_of_tiles_is_felt_in_every_tick_of_a_diagonal_drag) {
  * that at a corner a HIP lies beside all four by a rounding error. */
 TEST(a_drag_through_the_corners_of_tiles_is_felt_in_every_tick) {
     for (size_t i = 0; i < COUNT_OF(sizes); i++) {
-        knurl_scene *scene = lay_floor(sizes[i], -1, -1, 0.0, NULL);
+        SCOPED_SCENE *scene = lay_floor(sizes[i], -1, -1, 0.0, NULL);
         const double start = 10.0 * sizes[i];
         for (int k = 0; k < (int)(80.0 * sizes[i] / STEP); k++) {
             const double at = start + STEP * k; /* 2 to 8 mm: a whole number of ticks a tile */
@@ -111,7 +110,6 @@ TEST(a_drag_through_the_corners_of_tiles_is_felt_in_every_tick) {
             }
             CHECK_CLOSE(out.depth, DEPTH, 1e-12L);
         }
-        knurl_scene_destroy(scene);
     }
 }
 
@@ -119,7 +117,7 @@ TEST(a_drag_through_the_corners_of_tiles_is_felt_in_every_tick) {
  * height is DEPTH below the others. What the ticks over the odd one felt: contacts, and their depth. */
 static void drag_onto(double size, double odd, double wanted, int held) {
     knurl_surface_id id = 0;
-    knurl_scene *scene = lay_floor(size, 50, 50, odd, &id);
+    SCOPED_SCENE *scene = lay_floor(size, 50, 50, odd, &id);
     int over_it = 0;
     for (double x = 42.0 * size + 1e-4; x < 51.0 * size - 1e-4; x += STEP) {
         const knurl_tick_output out = tick_at(scene, x, 50.5 * size, -DEPTH);
@@ -132,7 +130,6 @@ static void drag_onto(double size, double odd, double wanted, int held) {
         over_it += on_it;
     }
     assert_true(over_it >= (int)(size / STEP) - 2);
-    knurl_scene_destroy(scene);
 }
 
 TEST(a_tile_half_a_millimetre_lower_than_its_neighbour_takes_the_hip_over) {

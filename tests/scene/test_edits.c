@@ -5,7 +5,7 @@
 TEST(every_edit_works_before_the_commit_and_after_it) {
     for (int committed = 0; committed < 2; committed++) {
         surface_parts parts = surface_plane();
-        knurl_scene *scene = open_scene(committed);
+        SCOPED_SCENE *scene = open_scene(committed);
         const knurl_surface_id kept = add_surface(scene, &parts);
         const knurl_surface_id removed = add_surface(scene, &parts);
         parts.desc.position[0] = 1.0;
@@ -25,14 +25,13 @@ TEST(every_edit_works_before_the_commit_and_after_it) {
         out = press(scene, 1.0, -0.001);
         CHECK_VECTOR(out.force, 0.0, 0.0, K * 0.001, TOL);
         assert_true(out.surface == other);
-        knurl_scene_destroy(scene);
     }
 }
 
 TEST(of_several_edits_the_newest_wins) {
     for (int committed = 0; committed < 2; committed++) {
         surface_parts parts = surface_plane();
-        knurl_scene *scene = open_scene(committed);
+        SCOPED_SCENE *scene = open_scene(committed);
         const knurl_surface_id id = add_surface(scene, &parts);
         for (int i = 0; i <= 50; i++) {
             set_stiffness(scene, id, 100.0 + 10.0 * i);
@@ -43,13 +42,12 @@ TEST(of_several_edits_the_newest_wins) {
         }
         const knurl_tick_output out = press(scene, 0.0, 0.0);
         CHECK_VECTOR(out.force, 0.0, 0.0, 600.0 * 0.005, TOL);
-        knurl_scene_destroy(scene);
     }
 }
 
 TEST(material_and_place_do_not_undo_each_other) {
     surface_parts parts = surface_plane();
-    knurl_scene *scene = open_scene(1);
+    SCOPED_SCENE *scene = open_scene(1);
     const knurl_surface_id id = add_surface(scene, &parts);
     set_place(scene, id, 0.0, 0.0, 0.004);
     set_stiffness(scene, id, 500.0);
@@ -64,14 +62,13 @@ TEST(material_and_place_do_not_undo_each_other) {
             set_stiffness(scene, id, 250.0); /* on the way */
         }
     }
-    knurl_scene_destroy(scene);
 }
 
 TEST(ids_stay_stale_for_ever) {
     enum { TURNS = 5000 };
     static knurl_surface_id ids[TURNS];
     surface_parts parts = surface_plane();
-    knurl_scene *scene = open_scene(1);
+    SCOPED_SCENE *scene = open_scene(1);
     const knurl_surface_id kept = add_surface(scene, &parts);
     const char *name = "untouched";
     knurl_surface_info info;
@@ -94,13 +91,12 @@ TEST(ids_stay_stale_for_ever) {
     assert_int_equal(knurl_scene_remove_surface(scene, last), KNURL_OK);
     assert_int_equal(knurl_scene_remove_surface(scene, kept), KNURL_OK);
     assert_int_equal(knurl_scene_get_surface_count(scene), 0);
-    knurl_scene_destroy(scene);
 }
 
 TEST(committed_scene_is_full_at_its_capacity_and_has_room_after_a_removal) {
     surface_parts parts = surface_plane();
     knurl_scene_desc desc;
-    knurl_scene *scene = NULL;
+    SCOPED_SCENE *scene = NULL;
     knurl_surface_id ids[6];
     knurl_surface_id id = 77;
     knurl_scene_desc_init(&desc, sizeof desc);
@@ -120,7 +116,6 @@ TEST(committed_scene_is_full_at_its_capacity_and_has_room_after_a_removal) {
         assert_int_equal(knurl_scene_remove_surface(scene, ids[turn % 6]), KNURL_OK);
         ids[turn % 6] = add_surface(scene, &parts); /* at once, whether or not a tick came between */
     }
-    knurl_scene_destroy(scene);
 }
 
 /* --- what is refused --- */
@@ -151,7 +146,7 @@ TEST(transforms_out_of_range_are_refused_by_name_and_change_nothing) {
         {{0.0, 0.0, 0.1}, {0.0, 0.0, 0.0, 1.0}, (double)INFINITY, "seconds"},
     };
     knurl_surface_id id;
-    knurl_scene *scene = pressed_scene(&id);
+    SCOPED_SCENE *scene = pressed_scene(&id);
     for (size_t i = 0; i < COUNT_OF(cases); i++) {
         CHECK_REFUSED(knurl_scene_set_transform(scene, id, cases[i].position, cases[i].rotation, cases[i].seconds),
                       KNURL_ERROR_ARGUMENT, id);
@@ -164,7 +159,6 @@ TEST(transforms_out_of_range_are_refused_by_name_and_change_nothing) {
         CHECK_REFUSED(knurl_scene_set_transform(scene, unknown[i], elsewhere, UPRIGHT, 0.1), KNURL_ERROR_STALE_ID, id);
         check_still_pressed(scene, id);
     }
-    knurl_scene_destroy(scene);
 }
 
 /* Taken or refused: either way nobody is thrown about. */
@@ -172,7 +166,7 @@ TEST(transforms_to_far_off_leave_the_force_finite) {
     static const double far_off[] = {1e9, 1.001e9, 1e300};
     for (size_t i = 0; i < COUNT_OF(far_off); i++) {
         knurl_surface_id id;
-        knurl_scene *scene = pressed_scene(&id);
+        SCOPED_SCENE *scene = pressed_scene(&id);
         const double there[3] = {far_off[i], -far_off[i], 0.0};
         const double back[3] = {-far_off[i], far_off[i], 0.0};
         const double home[3] = {0.0, 0.0, 0.0};
@@ -187,13 +181,12 @@ TEST(transforms_to_far_off_leave_the_force_finite) {
         assert_int_equal(knurl_scene_set_transform(scene, id, home, UPRIGHT, 0.0), KNURL_OK);
         (void)press(scene, 0.0, 0.001);
         check_still_pressed(scene, id);
-        knurl_scene_destroy(scene);
     }
 }
 
 TEST(materials_out_of_range_are_refused_after_the_commit_and_change_nothing) {
     knurl_surface_id id;
-    knurl_scene *scene = pressed_scene(&id);
+    SCOPED_SCENE *scene = pressed_scene(&id);
     for (int i = 0; i < 6; i++) {
         knurl_material_desc bad;
         knurl_material_desc_init(&bad, sizeof bad);
@@ -210,13 +203,12 @@ TEST(materials_out_of_range_are_refused_after_the_commit_and_change_nothing) {
     unknown.method = KNURL_METHOD_BANDLIMITED + 1;
     CHECK_REFUSED(knurl_scene_set_material(scene, id, &unknown), KNURL_ERROR_UNKNOWN, unknown);
     check_still_pressed(scene, id);
-    knurl_scene_destroy(scene);
 }
 
 TEST(surface_refused_after_the_commit_changes_nothing) {
     surface_parts bad = surface_plane();
     knurl_surface_id id;
-    knurl_scene *scene = pressed_scene(&id);
+    SCOPED_SCENE *scene = pressed_scene(&id);
     knurl_surface_id made = 77;
     bad.desc.position[2] = 0.001;
     bad.material.stiffness = -1.0;
@@ -227,5 +219,4 @@ TEST(surface_refused_after_the_commit_changes_nothing) {
     CHECK_REFUSED(knurl_scene_add_surface(scene, surface_ready(&bad), &made), KNURL_ERROR_ARGUMENT, made);
     check_still_pressed(scene, id);
     CHECK_REFUSED(knurl_scene_commit(scene), KNURL_ERROR_STATE, made);
-    knurl_scene_destroy(scene);
 }

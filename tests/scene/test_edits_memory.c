@@ -65,7 +65,7 @@ static void busy_round(knurl_scene *scene, const ledger *books, knurl_surface_id
 TEST(bytes_return_to_where_they_were) {
     ledger books = {0, 0, 0, 0};
     knurl_surface_id id;
-    shape sheet = shape_sheet(5, 5, (const double[2]){0.02, 0.02}, slope);
+    SCOPED_SHAPE sheet = shape_sheet(5, 5, (const double[2]){0.02, 0.02}, slope);
     knurl_scene *scene = pressed_scene(&books, &id);
     for (int round = 0; round < 3; round++) { /* tables grow to what a round needs, and keep that */
         busy_round(scene, &books, id, &sheet);
@@ -80,7 +80,6 @@ TEST(bytes_return_to_where_they_were) {
     knurl_scene_destroy(scene);
     assert_int_equal(books.blocks, 0);
     assert_true(books.bytes == 0);
-    shape_free(&sheet);
 }
 
 /* With ticks, and (a paused game) without any. */
@@ -107,7 +106,7 @@ TEST(edits_that_are_replaced_do_not_pile_up) {
 TEST(hip_that_does_not_tick_holds_no_memory_back) {
     ledger books = {0, 0, 0, 0};
     knurl_surface_id id;
-    shape sheet = shape_sheet(30, 30, (const double[2]){0.05, 0.05}, slope);
+    SCOPED_SHAPE sheet = shape_sheet(30, 30, (const double[2]){0.05, 0.05}, slope);
     surface_parts parts = surface_mesh(&sheet);
     knurl_scene *scene = pressed_scene(&books, &id);
     knurl_surface_id mesh = add_surface(scene, &parts);
@@ -124,7 +123,6 @@ TEST(hip_that_does_not_tick_holds_no_memory_back) {
     assert_true(knurl_scene_get_bytes(scene) == before && books.bytes == before);
     knurl_scene_destroy(scene);
     assert_int_equal(books.blocks, 0);
-    shape_free(&sheet);
 }
 
 TEST(scene_destroyed_in_the_midst_of_edits_gives_everything_back) {
@@ -206,7 +204,7 @@ static int edit_without(int32_t refused, int kind, int crowd, shape *sheet) {
 
 /* Crowds at which tables of powers of two are just full, and one more. */
 TEST(edits_that_get_no_memory_leave_the_scene_as_it_was) {
-    shape sheet = shape_sheet(3, 3, (const double[2]){0.05, 0.05}, NULL);
+    SCOPED_SHAPE sheet = shape_sheet(3, 3, (const double[2]){0.05, 0.05}, NULL);
     for (int kind = 0; kind < 5; kind++) {
         for (int crowd = 0; crowd <= 32; crowd += crowd < 8 ? 1 : 8) {
             int32_t refused = 1;
@@ -217,7 +215,6 @@ TEST(edits_that_get_no_memory_leave_the_scene_as_it_was) {
             assert_true((kind != 2 && kind != 3) || refused > 1); /* an added surface does take memory */
         }
     }
-    shape_free(&sheet);
 }
 
 /* The commit sorts: what it needs it gets, or says so and can be tried again. */
@@ -256,7 +253,7 @@ TEST(ticks_neither_ask_for_memory_nor_give_any_back) {
     ledger books = {0, 0, 0, 0};
     knurl_surface_id id;
     surface_parts parts = surface_plane();
-    knurl_scene *scene = pressed_scene(&books, &id);
+    SCOPED_SCENE *scene = pressed_scene(&books, &id);
     uint64_t seed = 8;
     for (int i = 0; i < 200; i++) {
         parts.desc.position[0] = 0.005 * i;
@@ -272,5 +269,4 @@ TEST(ticks_neither_ask_for_memory_nor_give_any_back) {
         }
         assert_memory_equal(&before, &books, sizeof books);
     }
-    knurl_scene_destroy(scene);
 }

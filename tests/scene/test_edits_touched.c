@@ -3,7 +3,7 @@
 
 TEST(removing_what_is_touched_ends_the_contact_at_the_next_tick) {
     knurl_surface_id id;
-    knurl_scene *scene = pressed_scene(&id);
+    SCOPED_SCENE *scene = pressed_scene(&id);
     assert_int_equal(knurl_scene_remove_surface(scene, id), KNURL_OK);
     for (int k = 0; k < 3; k++) {
         const knurl_tick_output out = tick_at(scene, 0.0, 0.0, -0.001);
@@ -13,14 +13,13 @@ TEST(removing_what_is_touched_ends_the_contact_at_the_next_tick) {
         assert_int_equal(out.contacts, 0);
         assert_int_equal(out.flags, 0);
     }
-    knurl_scene_destroy(scene);
 }
 
 /* The place is reused; the contact is not. */
 TEST(surface_in_the_place_of_one_that_was_touched_is_not_touched_from_afar) {
     surface_parts parts = surface_plane();
     knurl_surface_id id;
-    knurl_scene *scene = pressed_scene(&id);
+    SCOPED_SCENE *scene = pressed_scene(&id);
     assert_int_equal(knurl_scene_remove_surface(scene, id), KNURL_OK);
     parts.desc.position[2] = 0.0145; /* above the HIP, further than a first tick captures */
     const knurl_surface_id next = add_surface(scene, &parts);
@@ -30,13 +29,12 @@ TEST(surface_in_the_place_of_one_that_was_touched_is_not_touched_from_afar) {
     out = press(scene, 0.0, 0.0135);
     CHECK_VECTOR(out.force, 0.0, 0.0, K * 0.001, TOL);
     assert_true(out.surface == next && next != id);
-    knurl_scene_destroy(scene);
 }
 
 TEST(surface_that_comes_back_round_a_hip_is_not_touched_before_the_hip_comes_again) {
     for (int ticks = 1; ticks < 4; ticks++) { /* between taking it out and putting it back */
         surface_parts parts = surface_plane();
-        knurl_scene *scene = open_scene(1);
+        SCOPED_SCENE *scene = open_scene(1);
         const knurl_surface_id id = add_surface(scene, &parts);
         assert_true(press(scene, 0.0, -0.001).force[2] > 0.1);
         assert_int_equal(knurl_scene_remove_surface(scene, id), KNURL_OK);
@@ -48,13 +46,12 @@ TEST(surface_that_comes_back_round_a_hip_is_not_touched_before_the_hip_comes_aga
             assert_int_equal(tick_at(scene, 0.0, 0.0, -0.001).contacts, 0);
         }
         assert_true(press(scene, 0.0, -0.001).force[2] > 0.1);
-        knurl_scene_destroy(scene);
     }
 }
 
 TEST(below_a_surface_that_is_taken_out_the_next_one_holds) {
     surface_parts parts = surface_plane();
-    knurl_scene *scene = open_scene(1);
+    SCOPED_SCENE *scene = open_scene(1);
     const knurl_surface_id lower = add_surface(scene, &parts);
     parts.desc.position[2] = 0.001;
     parts.material.stiffness = 300.0;
@@ -67,12 +64,11 @@ TEST(below_a_surface_that_is_taken_out_the_next_one_holds) {
     CHECK_VECTOR(out.force, 0.0, 0.0, 400.0 * 0.001, TOL);
     assert_true(out.surface == lower);
     assert_int_equal(out.contacts, 1);
-    knurl_scene_destroy(scene);
 }
 
 TEST(surface_added_under_a_hip_holds_it_when_it_comes_down) {
     surface_parts parts = surface_plane();
-    knurl_scene *scene = open_scene(1);
+    SCOPED_SCENE *scene = open_scene(1);
     for (int i = 0; i < 20; i++) {
         parts.desc.position[0] = 0.3 * i;
         (void)tick_at(scene, 0.3 * i, 0.0, 1e-5);
@@ -81,7 +77,6 @@ TEST(surface_added_under_a_hip_holds_it_when_it_comes_down) {
         CHECK_VECTOR(out.force, 0.0, 0.0, K * 0.001, TOL);
         assert_true(out.surface == id);
     }
-    knurl_scene_destroy(scene);
 }
 
 /* 50 Hz at 1 kHz: events of 20 ticks. What plays is played to its end with the amplitude and period it began with; the
@@ -93,7 +88,7 @@ static void change_in_mid_event(double new_fs, double new_amplitude) {
     const double at[3] = {0.0, 0.0, -0.002};
     const double velocity[3] = {0.05, 0.0, 0.0};
     set_grating(&parts, KNURL_METHOD_S2, 1000.0, 0.0, 0.0005);
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     assert_int_equal(knurl_vibration_event_prepare(20.0, 0.0005, &first), KNURL_OK);
     assert_int_equal(
         knurl_vibration_event_prepare(1000.0 / (0.05 * (new_fs > 0.0 ? new_fs : 1000.0)), new_amplitude, &next),
@@ -115,7 +110,6 @@ static void change_in_mid_event(double new_fs, double new_amplitude) {
             assert_int_equal(knurl_scene_set_material(scene, out.surface, &parts.material), KNURL_OK);
         }
     }
-    knurl_scene_destroy(scene);
 }
 
 TEST(material_changes_at_the_next_tick_and_the_event_plays_on) {
@@ -132,7 +126,7 @@ TEST(event_plays_to_its_end_on_a_surface_turned_smooth) {
 TEST(material_with_higher_crests_reaches_further_at_the_next_tick) {
     surface_parts parts = surface_plane();
     set_grating(&parts, KNURL_METHOD_S1, 100.0, 0.0, 0.0002);
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     assert_int_equal(tick_at(scene, 0.0, 0.0, 0.0008).contacts, 0);
     assert_int_equal(tick_at(scene, 0.0, 0.0, 0.0008).contacts, 0);
     set_grating(&parts, KNURL_METHOD_S1, 100.0, 0.0, 0.0010);
@@ -140,13 +134,12 @@ TEST(material_with_higher_crests_reaches_further_at_the_next_tick) {
     assert_int_equal(knurl_scene_set_material(scene, id, &parts.material), KNURL_OK);
     const knurl_tick_output out = tick_at(scene, 0.0, 0.0, 0.0008);
     CHECK_VECTOR(out.force, 0.0, 0.0, K * 0.0002, TOL);
-    knurl_scene_destroy(scene);
 }
 
 TEST(info_tells_what_an_edit_made_of_a_surface) {
     surface_parts parts = surface_plane();
     knurl_surface_info info;
-    knurl_scene *scene = open_scene(1);
+    SCOPED_SCENE *scene = open_scene(1);
     parts.desc.name = "lid";
     const knurl_surface_id id = add_surface(scene, &parts);
     set_stiffness(scene, id, 650.0);
@@ -164,7 +157,6 @@ TEST(info_tells_what_an_edit_made_of_a_surface) {
     assert_string_equal(info.model, "plane");
     assert_true(info.why && info.why[0]);
     CHECK_SAME(info.model_error, 0.0);
-    knurl_scene_destroy(scene);
 }
 
 /* --- many edits --- */
@@ -203,7 +195,7 @@ TEST(ten_thousand_adds_and_removes_agree_with_a_plain_list) {
     static plain_list list;
     uint64_t seed = 4;
     surface_parts parts = surface_plane();
-    knurl_scene *scene = open_scene(1);
+    SCOPED_SCENE *scene = open_scene(1);
     for (int step = 0; step < 10000; step++) {
         const int filling = step / 1000 % 2 == 0; /* waves, so that tables grow and places are reused */
         const int add = list.count == 0 || (list.count < MODEL_ROOM && random_integer(&seed, 0, 9) < (filling ? 7 : 3));
@@ -234,5 +226,4 @@ TEST(ten_thousand_adds_and_removes_agree_with_a_plain_list) {
             assert_true(out.surface == 0 || knurl_scene_get_surface_name(scene, out.surface, &felt) == KNURL_OK);
         }
     }
-    knurl_scene_destroy(scene);
 }

@@ -68,13 +68,12 @@ TEST(nothing_is_counted_across_the_ridges_nor_at_rest_nor_without_them) {
 TEST(in_the_air_nothing_is_crossed) {
     surface_parts parts = surface_plane();
     set_grating(&parts, KNURL_METHOD_S1, 1000.0, 0.0, A);
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     for (int k = 0; k < 500; k++) {
         (void)tick_moving(scene, (const double[3]){1e-4 * k, 0.0, 0.002}, (const double[3]){0.1, 0.0, 0.0});
     }
     CHECK_SAME(counts_of(scene).half_cycles_crossed, 0.0L);
     assert_int_equal(counts_of(scene).half_cycles_played, 0);
-    knurl_scene_destroy(scene);
 }
 
 /* A step of a hand's: with amplitudes that jump to 0 between (S2 idles) no half cycle is counted twice. S2 plays whole
@@ -131,7 +130,7 @@ static knurl_surface_check check_of(surface_parts *parts, knurl_surface_info *in
 TEST(stretch_is_told_along_y_too_and_warned_of_beyond_an_octave) {
     static const double ratios[] = {1.0, 8.0};
     for (size_t i = 0; i < COUNT_OF(ratios); i++) {
-        shape s = uneven_sheet(ratios[i]);
+        SCOPED_SHAPE s = uneven_sheet(ratios[i]);
         surface_parts parts = surface_mesh(&s);
         knurl_surface_info info;
         set_grating(&parts, KNURL_METHOD_BANDLIMITED, 0.0, 700.0, A);
@@ -148,6 +147,5 @@ TEST(stretch_is_told_along_y_too_and_warned_of_beyond_an_octave) {
             set_grating(&parts, KNURL_METHOD_BANDLIMITED, 700.0, 0.0, A); /* across it there is nothing to stretch */
             assert_null(strstr(check_of(&parts, &info).message, "along v"));
         }
-        shape_free(&s);
     }
 }

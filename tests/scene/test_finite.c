@@ -102,7 +102,7 @@ static void check_info(const knurl_scene *scene, knurl_surface_id id) {
 }
 
 static void add_wild_surface(knurl_scene *scene) {
-    shape s = wild_shape();
+    SCOPED_SHAPE s = wild_shape();
     surface_parts parts = one_in(3) ? surface_plane() : surface_mesh(&s);
     knurl_surface_id id = 0;
     parts.plane.half_extents[0] = size_of(-9.0, 9.0);
@@ -119,7 +119,6 @@ static void add_wild_surface(knurl_scene *scene) {
     if (knurl_scene_add_surface(scene, surface_ready(&parts), &id) == KNURL_OK) {
         check_info(scene, id);
     }
-    shape_free(&s);
 }
 
 static knurl_workspace wild_workspace(void) {
@@ -228,7 +227,7 @@ static void edit_wildly(knurl_scene *scene) {
 
 TEST(every_number_that_comes_out_is_finite) {
     for (scene_number = 0; scene_number < SCENES; scene_number++) {
-        knurl_scene *scene = empty_scene(1);
+        SCOPED_SCENE *scene = empty_scene(1);
         double from[3], at[3];
         seed = 0x9e3779b97f4a7c15u * (uint64_t)(scene_number + 1);
         configure_wildly(scene);
@@ -250,7 +249,6 @@ TEST(every_number_that_comes_out_is_finite) {
                 edit_wildly(scene);
             }
         }
-        knurl_scene_destroy(scene);
     }
     assert_true(all_contacts > 10 * SCENES); /* else nothing was tested */
 }
@@ -260,9 +258,9 @@ TEST(every_number_that_comes_out_is_finite) {
 TEST(coordinates_are_taken_up_to_a_range_and_refused_beyond) {
     static const double beyond[] = {1.001e9, -1.001e9, 1.7e19, 1e30, 1e300, (double)INFINITY, (double)NAN};
     surface_parts plane = surface_plane();
-    knurl_scene *scene = scene_of(&plane);
+    SCOPED_SCENE *scene = scene_of(&plane);
     const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
-    shape s = shape_box((const double[3]){0.1, 0.1, 0.1}, 0);
+    SCOPED_SHAPE s = shape_box((const double[3]){0.1, 0.1, 0.1}, 0);
     knurl_surface_point point;
     char nothing = 0;
     knurl_surface_point_init(&point, sizeof point);
@@ -293,15 +291,13 @@ TEST(coordinates_are_taken_up_to_a_range_and_refused_beyond) {
                   nothing);
     assert_string_equal(knurl_error_message(),
                         "position: expected numbers from -1e+09 to 1e+09 m, found [0, 0, 2e+09]");
-    shape_free(&s);
-    knurl_scene_destroy(scene);
 }
 
 /* A HIP beyond the range ends its contacts, as any position that is no number; back in range it begins anew. */
 TEST(hips_beyond_the_range_count_as_no_position) {
     static const double far[] = {1.001e9, -1.7e19, 1e200, 1e308};
     surface_parts parts = surface_plane();
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     for (size_t i = 0; i < COUNT_OF(far); i++) {
         (void)tick_at(scene, 0.0, 0.0, 0.001);
         assert_true(tick_at(scene, 0.0, 0.0, -0.001).contacts == 1);
@@ -314,5 +310,4 @@ TEST(hips_beyond_the_range_count_as_no_position) {
         assert_int_equal(tick_at(scene, 0.0, 0.0, -0.001).contacts, 1);
         assert_int_equal(tick_at(scene, 0.0, 0.999e9, 0.0).flags, 0);
     }
-    knurl_scene_destroy(scene);
 }

@@ -24,17 +24,16 @@ static knurl_scene *pressed(surface_parts *parts, double depth) {
 
 TEST(pressed_straight_down_nothing_pulls_sideways) {
     surface_parts parts = rough_plane(MU);
-    knurl_scene *scene = pressed(&parts, DEPTH);
+    SCOPED_SCENE *scene = pressed(&parts, DEPTH);
     for (int k = 0; k < 50; k++) {
         CHECK_VECTOR(tick_at(scene, 0.0, 0.0, -1e-4 * k).force, 0.0, 0.0, K * 1e-4 * k, TOL);
     }
-    knurl_scene_destroy(scene);
 }
 
 TEST(sticks_with_the_stiffness_and_slips_at_mu_times_the_load) {
     for (int way = 0; way < 8; way++) {
         surface_parts parts = rough_plane(MU);
-        knurl_scene *scene = pressed(&parts, DEPTH);
+        SCOPED_SCENE *scene = pressed(&parts, DEPTH);
         const double cx = cos(0.7 * way);
         const double cy = sin(0.7 * way);
         for (int k = 0; k <= 200; k++) {
@@ -45,17 +44,15 @@ TEST(sticks_with_the_stiffness_and_slips_at_mu_times_the_load) {
             CHECK_VECTOR(out.normal, 0.0, 0.0, 1.0, 0.0L);
             CHECK_CLOSE(out.depth, DEPTH, 1e-15L);
         }
-        knurl_scene_destroy(scene);
     }
 }
 
 TEST(friction_that_is_never_exceeded_only_sticks) {
     surface_parts parts = rough_plane(1e6);
-    knurl_scene *scene = pressed(&parts, DEPTH);
+    SCOPED_SCENE *scene = pressed(&parts, DEPTH);
     for (int k = 0; k <= 400; k++) {
         CHECK_VECTOR(tick_at(scene, 1e-4 * k, -2e-4 * k, -DEPTH).force, -K * 1e-4 * k, K * 2e-4 * k, K * DEPTH, 1e-10);
     }
-    knurl_scene_destroy(scene);
 }
 
 /* The element in the plane, step by step. */
@@ -85,7 +82,7 @@ static void compare_with_element(surface_parts *parts, const pose *p, uint64_t s
     double local[3] = {0.0, 0.0, 0.005};
     double hip[3];
     place(parts, p);
-    knurl_scene *scene = scene_of(parts);
+    SCOPED_SCENE *scene = scene_of(parts);
     pose_point(p, local, hip);
     (void)tick_at(scene, hip[0], hip[1], hip[2]);
     local[2] = -DEPTH;
@@ -104,7 +101,6 @@ static void compare_with_element(surface_parts *parts, const pose *p, uint64_t s
         turn(p->quaternion, (const double[3]){e.force[0], e.force[1], -K * local[2]}, force);
         CHECK_VECTOR(tick_at(scene, hip[0], hip[1], hip[2]).force, force[0], force[1], force[2], tolerance);
     }
-    knurl_scene_destroy(scene);
 }
 
 TEST(strokes_at_random_follow_the_element) {
@@ -121,7 +117,7 @@ TEST(strokes_at_random_follow_the_element) {
 /* The same sheet as a mesh, flat (which may become a plane) and kept a mesh. */
 TEST(strokes_over_a_turned_mesh_follow_the_element) {
     uint64_t seed = 78;
-    shape sheet = shape_sheet(16, 16, (const double[2]){0.0625, 0.0625}, NULL);
+    SCOPED_SHAPE sheet = shape_sheet(16, 16, (const double[2]){0.0625, 0.0625}, NULL);
     for (uint64_t run = 1; run <= 4; run++) {
         const pose there = random_pose(&seed);
         surface_parts parts = surface_mesh(&sheet);
@@ -129,16 +125,15 @@ TEST(strokes_over_a_turned_mesh_follow_the_element) {
         parts.desc.axis[0] = 1.0;
         compare_with_element(&parts, &there, run, 1e-9L);
     }
-    shape_free(&sheet);
 }
 
 /* Over a sphere: never above mu times the load, against the way it slides, and at the limit once it does. */
 TEST(friction_on_a_sphere_opposes_the_way_it_slides) {
-    shape ball = shape_sphere(0.05, 4);
+    SCOPED_SHAPE ball = shape_sphere(0.05, 4);
     surface_parts parts = surface_mesh(&ball);
     parts.material.friction = MU;
     parts.desc.axis[2] = 1.0;
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     for (int turn_index = 0; turn_index < 4; turn_index++) {
         const double tilt = 0.5 * turn_index;
         (void)tick_at(scene, 0.06, 0.0, 0.0);
@@ -159,8 +154,6 @@ TEST(friction_on_a_sphere_opposes_the_way_it_slides) {
             }
         }
     }
-    knurl_scene_destroy(scene);
-    shape_free(&ball);
 }
 
 /* --- energy --- */
@@ -170,7 +163,7 @@ TEST(friction_on_a_sphere_opposes_the_way_it_slides) {
 static void check_loop(double amplitude) {
     enum { TURN = 400, FROM = TURN + TURN / 4, TURNS = 3 };
     surface_parts parts = rough_plane(MU);
-    knurl_scene *scene = pressed(&parts, DEPTH);
+    SCOPED_SCENE *scene = pressed(&parts, DEPTH);
     const double excess = fmax(0.0, amplitude - MU * DEPTH);
     double last_x = 0.0;
     double last_force = 0.0;
@@ -184,7 +177,6 @@ static void check_loop(double amplitude) {
         last_force = force;
     }
     CHECK_CLOSE(work, TURNS * 4.0 * MU * K * DEPTH * excess, 1e-12L);
-    knurl_scene_destroy(scene);
 }
 
 TEST(strokes_to_and_fro_lose_the_area_of_the_hysteresis_loop) {
@@ -199,7 +191,7 @@ TEST(no_way_along_the_surface_yields_energy) {
     uint64_t seed = 99;
     for (int run = 0; run < 20; run++) {
         surface_parts parts = rough_plane(random_between(&seed, 0.05, 1.5));
-        knurl_scene *scene = pressed(&parts, DEPTH);
+        SCOPED_SCENE *scene = pressed(&parts, DEPTH);
         const double step = run % 2 ? 1e-4 : 3e-3; /* also leaps beyond the slip distance */
         double last[2] = {0.0, 0.0};
         double last_force[2] = {0.0, 0.0};
@@ -217,7 +209,6 @@ TEST(no_way_along_the_surface_yields_energy) {
             }
             assert_true(work >= -1e-13);
         }
-        knurl_scene_destroy(scene);
     }
 }
 
@@ -225,30 +216,28 @@ TEST(no_way_along_the_surface_yields_energy) {
 
 TEST(letting_up_lets_it_slip) {
     surface_parts parts = rough_plane(MU);
-    knurl_scene *scene = pressed(&parts, DEPTH);
+    SCOPED_SCENE *scene = pressed(&parts, DEPTH);
     (void)tick_at(scene, 0.0004, 0.0, -DEPTH); /* sticks: 0.16 N of 0.2 N */
     knurl_tick_output out = tick_at(scene, 0.0004, 0.0, -0.5 * DEPTH);
     CHECK_VECTOR(out.force, -MU * K * 0.5 * DEPTH, 0.0, K * 0.5 * DEPTH, TOL);
     out = tick_at(scene, 0.0004, 0.0, -DEPTH); /* pressed again: the anchor has come nearer */
     CHECK_VECTOR(out.force, -MU * K * 0.5 * DEPTH, 0.0, K * DEPTH, TOL);
-    knurl_scene_destroy(scene);
 }
 
 TEST(lifted_off_it_is_forgotten) {
     surface_parts parts = rough_plane(MU);
-    knurl_scene *scene = pressed(&parts, DEPTH);
+    SCOPED_SCENE *scene = pressed(&parts, DEPTH);
     (void)tick_at(scene, 0.0004, 0.0, -DEPTH);
     CHECK_VECTOR(tick_at(scene, 0.0004, 0.0, 0.001).force, 0.0, 0.0, 0.0, 0.0L);
     CHECK_VECTOR(tick_at(scene, 0.0004, 0.0, -DEPTH).force, 0.0, 0.0, K * DEPTH, TOL); /* straight down again */
     CHECK_VECTOR(tick_at(scene, 0.0003, 0.0, -DEPTH).force, K * 1e-4, 0.0, K * DEPTH, TOL);
-    knurl_scene_destroy(scene);
 }
 
 /* S1: at x = 0 on a crest, at 5 mm in a trough; the anchor's load is the depth alone. */
 TEST(height_does_not_load_it) {
     surface_parts parts = rough_plane(MU);
     set_grating(&parts, KNURL_METHOD_S1, 100.0, 0.0, 0.0005);
-    knurl_scene *scene = pressed(&parts, DEPTH);
+    SCOPED_SCENE *scene = pressed(&parts, DEPTH);
     knurl_tick_output out = tick_at(scene, 0.001, 0.0, -DEPTH);
     CHECK_VECTOR(out.force, -MU * K * DEPTH, 0.0, K * (DEPTH + 0.0005), TOL);
     out = tick_at(scene, 0.005, 0.0, -DEPTH);
@@ -257,17 +246,15 @@ TEST(height_does_not_load_it) {
     CHECK_VECTOR(out.force, 0.0, 0.0, K * 0.0002, TOL);
     out = tick_at(scene, 0.0104, 0.0, 0.0003);
     CHECK_VECTOR(out.force, 0.0, 0.0, K * 0.0002, TOL);
-    knurl_scene_destroy(scene);
 }
 
 TEST(damping_does_not_load_it) {
     surface_parts parts = rough_plane(MU);
     parts.material.damping = 5.0;
-    knurl_scene *scene = pressed(&parts, DEPTH);
+    SCOPED_SCENE *scene = pressed(&parts, DEPTH);
     const double at[3] = {0.003, 0.0, -DEPTH};
     const double into[3] = {0.0, 0.0, -0.1};
     CHECK_VECTOR(tick_moving(scene, at, into).force, -MU * K * DEPTH, 0.0, K * DEPTH + 0.5, TOL);
-    knurl_scene_destroy(scene);
 }
 
 TEST(friction_leaves_the_normal_force_alone) {
@@ -276,7 +263,7 @@ TEST(friction_leaves_the_normal_force_alone) {
     parts.material.damping = 0.7;
     knurl_scene *without = pressed(&parts, DEPTH);
     parts.material.friction = 0.8;
-    knurl_scene *with = pressed(&parts, DEPTH);
+    SCOPED_SCENE *with = pressed(&parts, DEPTH);
     uint64_t seed = 6;
     double x = 0.0;
     double y = 0.0;
@@ -292,12 +279,11 @@ TEST(friction_leaves_the_normal_force_alone) {
         assert_int_equal(a.event, b.event);
     }
     knurl_scene_destroy(without);
-    knurl_scene_destroy(with);
 }
 
 /* No friction is the surface as it was before there was any: a caller who knows no such key. */
 TEST(friction_0_is_bit_for_bit_a_material_without_the_key) {
-    shape ball = shape_sphere(0.03, 3);
+    SCOPED_SHAPE ball = shape_sphere(0.03, 3);
     for (int mesh = 0; mesh < 2; mesh++) {
         surface_parts parts = mesh ? surface_mesh(&ball) : surface_plane();
         set_grating(&parts, KNURL_METHOD_S2, 900.0, 0.0, 0.0003);
@@ -307,7 +293,7 @@ TEST(friction_0_is_bit_for_bit_a_material_without_the_key) {
         knurl_scene *zero = scene_of(&parts);
         parts.material.friction = 7.0; /* not read */
         parts.material.struct_size = offsetof(knurl_material_desc, friction);
-        knurl_scene *older = scene_of(&parts);
+        SCOPED_SCENE *older = scene_of(&parts);
         uint64_t seed = 14;
         double x = -0.02;
         for (int k = 0; k < 3000; k++) {
@@ -318,14 +304,12 @@ TEST(friction_0_is_bit_for_bit_a_material_without_the_key) {
             check_same_output(&a, &b);
         }
         knurl_scene_destroy(zero);
-        knurl_scene_destroy(older);
     }
-    shape_free(&ball);
 }
 
 TEST(friction_taken_away_in_contact_is_gone_at_the_next_tick) {
     surface_parts parts = rough_plane(MU);
-    knurl_scene *scene = pressed(&parts, DEPTH);
+    SCOPED_SCENE *scene = pressed(&parts, DEPTH);
     const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
     CHECK_CLOSE(tick_at(scene, 0.003, 0.0, -DEPTH).force[0], -MU * K * DEPTH, TOL);
     parts.material.friction = 0.0;
@@ -335,14 +319,13 @@ TEST(friction_taken_away_in_contact_is_gone_at_the_next_tick) {
     assert_int_equal(knurl_scene_set_material(scene, id, &parts.material), KNURL_OK);
     const knurl_tick_output out = tick_at(scene, 0.02, 0.0, -DEPTH);
     assert_true(out.force[0] <= 0.0 && out.force[0] >= -MU * K * DEPTH * (1.0 + 1e-12));
-    knurl_scene_destroy(scene);
 }
 
 /* --- surfaces that move --- */
 
 TEST(surface_that_slides_drags_a_resting_hip) {
     surface_parts parts = rough_plane(MU);
-    knurl_scene *scene = pressed(&parts, DEPTH);
+    SCOPED_SCENE *scene = pressed(&parts, DEPTH);
     const double end[3] = {0.01, 0.0, 0.0};
     const double rotation[4] = {0.0, 0.0, 0.0, 1.0};
     const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
@@ -355,12 +338,11 @@ TEST(surface_that_slides_drags_a_resting_hip) {
     for (int k = 1; k <= 30; k++) { /* and back: first it relaxes, then it drags the other way */
         CHECK_CLOSE(tick_at(scene, 0.0, 0.0, -DEPTH).force[0], K * fmax(MU * DEPTH - 5e-5 * k, -MU * DEPTH), TOL);
     }
-    knurl_scene_destroy(scene);
 }
 
 TEST(surface_that_goes_with_the_hip_pulls_no_way) {
     surface_parts parts = rough_plane(MU);
-    knurl_scene *scene = pressed(&parts, DEPTH);
+    SCOPED_SCENE *scene = pressed(&parts, DEPTH);
     const double end[3] = {0.05, 0.02, 0.01};
     const double rotation[4] = {0.0, 0.0, 0.0, 1.0};
     assert_int_equal(knurl_scene_set_transform(scene, knurl_scene_get_surface(scene, 0), end, rotation, 0.1), KNURL_OK);
@@ -368,7 +350,6 @@ TEST(surface_that_goes_with_the_hip_pulls_no_way) {
         const knurl_tick_output out = tick_at(scene, 0.0005 * k, 0.0002 * k, -DEPTH + 0.0001 * k);
         CHECK_VECTOR(out.force, 0.0, 0.0, K * DEPTH, 1e-10L);
     }
-    knurl_scene_destroy(scene);
 }
 
 /* The anchor goes round with the surface: from r to R(angle) r, and the spring to it with it. */
@@ -376,7 +357,7 @@ TEST(surface_that_turns_takes_the_anchor_along) {
     static const double z[3] = {0.0, 0.0, 1.0};
     const double at[3] = {0.1, 0.02, -DEPTH};
     surface_parts parts = rough_plane(2.0); /* slips at 2 mm */
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     pose end = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};
     (void)tick_at(scene, at[0], at[1], 0.005);
     (void)tick_at(scene, at[0], at[1], at[2]);
@@ -388,16 +369,14 @@ TEST(surface_that_turns_takes_the_anchor_along) {
         CHECK_VECTOR(tick_at(scene, at[0], at[1], at[2]).force, K * (anchor[0] - at[0]), K * (anchor[1] - at[1]),
                      K * DEPTH, 1e-11L);
     }
-    knurl_scene_destroy(scene);
 }
 
 TEST(jump_of_the_surface_starts_friction_anew) {
     surface_parts parts = rough_plane(MU);
-    knurl_scene *scene = pressed(&parts, DEPTH);
+    SCOPED_SCENE *scene = pressed(&parts, DEPTH);
     const double end[3] = {0.1, 0.0, 0.0};
     const double rotation[4] = {0.0, 0.0, 0.0, 1.0};
     (void)tick_at(scene, 0.0003, 0.0, -DEPTH);
     assert_int_equal(knurl_scene_set_transform(scene, knurl_scene_get_surface(scene, 0), end, rotation, 0.0), KNURL_OK);
     CHECK_VECTOR(tick_at(scene, 0.0003, 0.0, -DEPTH).force, 0.0, 0.0, K * DEPTH, TOL);
-    knurl_scene_destroy(scene);
 }

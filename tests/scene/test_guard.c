@@ -44,7 +44,7 @@ static knurl_hip_counts counts_of(const knurl_scene *scene) {
 TEST(a_first_tick_pressed_in_comes_in_as_a_ramp) {
     surface_parts parts = wall(100.0);
     const knurl_hip_desc hip = guarded(0);
-    knurl_scene *scene = scene_with(&parts, &hip);
+    SCOPED_SCENE *scene = scene_with(&parts, &hip);
     for (int tick = 1; tick <= 30; tick++) {
         const knurl_tick_output out = tick_at(scene, 0.0, 0.0, -0.009);
         CHECK_CLOSE(out.force[2], 100.0 * fmin(0.009, 0.0005 * tick), 1e-12);
@@ -53,19 +53,17 @@ TEST(a_first_tick_pressed_in_comes_in_as_a_ramp) {
         assert_int_equal(out.flags & KNURL_TICK_SLEW, 0);
     }
     assert_true(counts_of(scene).entry_ticks == 17);
-    knurl_scene_destroy(scene);
 }
 
 TEST(friction_comes_in_with_the_depth_that_is_felt) {
     surface_parts parts = wall(100.0);
     parts.material.friction = 0.5;
     const knurl_hip_desc hip = guarded(0);
-    knurl_scene *scene = scene_with(&parts, &hip);
+    SCOPED_SCENE *scene = scene_with(&parts, &hip);
     for (int tick = 0; tick < 30; tick++) {
         const knurl_tick_output out = tick_at(scene, 0.001 * tick, 0.0, -0.009); /* it slips, or the spring is short */
         assert_true(fabs(out.force[0]) <= 0.5 * out.force[2] + 1e-12);
     }
-    knurl_scene_destroy(scene);
 }
 
 /* A wall that jumps 6 mm up under a HIP that is 1 mm in. */
@@ -74,7 +72,7 @@ TEST(a_wall_that_jumps_comes_in_as_a_ramp) {
     static const double straight[4] = {0.0, 0.0, 0.0, 1.0};
     surface_parts parts = wall(100.0);
     const knurl_hip_desc hip = guarded(0);
-    knurl_scene *scene = scene_with(&parts, &hip);
+    SCOPED_SCENE *scene = scene_with(&parts, &hip);
     for (int tick = 0; tick < 10; tick++) {
         (void)tick_at(scene, 0.0, 0.0, 0.001 - 0.0002 * (tick + 1));
     }
@@ -84,7 +82,6 @@ TEST(a_wall_that_jumps_comes_in_as_a_ramp) {
         const knurl_tick_output out = tick_at(scene, 0.0, 0.0, -0.001);
         CHECK_CLOSE(out.force[2], 100.0 * fmin(0.007, 0.001 + 0.0005 * tick), 1e-12);
     }
-    knurl_scene_destroy(scene);
 }
 
 /* 10,000 N/m: 5 N a tick by the ramp alone; 3.3 N within 5 ms is 0.66 N a tick. */
@@ -95,20 +92,19 @@ TEST(a_force_grows_no_faster_than_the_slew_rate) {
         knurl_hip_desc hip = guarded(0);
         const double step = 0.001 * (rates[i] > 0.0 ? rates[i] : 3.3 / 0.005);
         hip.slew_rate = rates[i];
-        knurl_scene *scene = scene_with(&parts, &hip);
+        SCOPED_SCENE *scene = scene_with(&parts, &hip);
         for (int tick = 1; tick <= 30; tick++) {
             const knurl_tick_output out = tick_at(scene, 0.0, 0.0, -0.001);
             CHECK_CLOSE(out.force[2], fmin(3.3, step * tick), 1e-12);
         }
         assert_true(counts_of(scene).slew_ticks > 0);
-        knurl_scene_destroy(scene);
     }
 }
 
 TEST(after_lift_off_the_force_is_zero_at_once) {
     surface_parts parts = wall(K);
     const knurl_hip_desc hip = guarded(0);
-    knurl_scene *scene = scene_with(&parts, &hip);
+    SCOPED_SCENE *scene = scene_with(&parts, &hip);
     for (int tick = 0; tick < 40; tick++) {
         (void)tick_at(scene, 0.0, 0.0, -0.004);
     }
@@ -116,7 +112,6 @@ TEST(after_lift_off_the_force_is_zero_at_once) {
     const knurl_tick_output out = tick_at(scene, 0.0, 0.0, 0.001);
     CHECK_VECTOR(out.force, 0.0, 0.0, 0.0, 0.0);
     assert_int_equal(out.flags & KNURL_TICK_SLEW, 0);
-    knurl_scene_destroy(scene);
 }
 
 /* The same strokes with and without protections: 2.5, 3 and 5 ticks a cycle at the largest amplitude that keeps within
@@ -159,7 +154,7 @@ TEST(motors_warm_up_as_the_closed_form_has_it_and_are_kept_from_more) {
     knurl_hip_desc hip = guarded(KNURL_PROTECT_ENTRY | KNURL_PROTECT_SLEW);
     hip.heat_time = tau;
     hip.continuous_force = 0.88;
-    knurl_scene *scene = scene_with(&parts, &hip);
+    SCOPED_SCENE *scene = scene_with(&parts, &hip);
     const double ratio2 = held * held / (0.88 * 0.88);
     const double warm = -tau * log(1.0 - 0.9 / ratio2); /* s */
     double last = held;
@@ -184,7 +179,6 @@ TEST(motors_warm_up_as_the_closed_form_has_it_and_are_kept_from_more) {
     }
     CHECK_CLOSE(counts_of(scene).heat, exp(-5.0), 1e-3);
     CHECK_CLOSE(tick_at(scene, 0.0, 0.0, -0.002).force[2], held, 1e-12);
-    knurl_scene_destroy(scene);
 }
 
 TEST(an_endless_continuous_force_is_no_limit) {
@@ -192,11 +186,10 @@ TEST(an_endless_continuous_force_is_no_limit) {
     knurl_hip_desc hip = guarded(KNURL_PROTECT_ENTRY | KNURL_PROTECT_SLEW);
     hip.continuous_force = (double)INFINITY;
     hip.heat_time = 0.1;
-    knurl_scene *scene = scene_with(&parts, &hip);
+    SCOPED_SCENE *scene = scene_with(&parts, &hip);
     for (int tick = 0; tick < 3000; tick++) {
         CHECK_CLOSE(tick_at(scene, 0.0, 0.0, -0.003).force[2], 3.0, 1e-12);
     }
-    knurl_scene_destroy(scene);
 }
 
 static rig r;
@@ -231,7 +224,7 @@ TEST(a_callback_may_leave_the_heat_to_its_device) {
 TEST(nothing_that_is_not_a_number_gets_past_the_protections) {
     surface_parts parts = wall(K);
     const knurl_hip_desc hip = guarded(0);
-    knurl_scene *scene = scene_with(&parts, &hip);
+    SCOPED_SCENE *scene = scene_with(&parts, &hip);
     static const double wrong[] = {(double)NAN, (double)INFINITY};
     for (int tick = 0; tick < 60; tick++) {
         const int bad = tick % 10 == 9;
@@ -244,14 +237,13 @@ TEST(nothing_that_is_not_a_number_gets_past_the_protections) {
             CHECK_CLOSE(out.force[2], K * 0.0005, 1e-12); /* again from nothing, as a ramp */
         }
     }
-    knurl_scene_destroy(scene);
 }
 
 TEST(configuring_a_hip_begins_anew_and_cools_no_motor) {
     surface_parts parts = wall(K);
     knurl_hip_desc hip = guarded(0);
     hip.heat_time = 0.1;
-    knurl_scene *scene = scene_with(&parts, &hip);
+    SCOPED_SCENE *scene = scene_with(&parts, &hip);
     for (int tick = 0; tick < 1000; tick++) {
         (void)tick_at(scene, 0.0, 0.0, -0.004);
     }
@@ -267,7 +259,6 @@ TEST(configuring_a_hip_begins_anew_and_cools_no_motor) {
     (void)tick_at(scene, 0.0, 0.0, 0.01);
     assert_true(before == 0.0); /* nothing is told before the first tick */
     CHECK_CLOSE(counts_of(scene).heat, 0.25 * (ratio2 + (warm - ratio2) * exp(-0.01)) * exp(-0.01), 1e-12);
-    knurl_scene_destroy(scene);
 }
 
 /* A HIP swings between 0 and `swing` (m) deep in a wall that could run away, `hz` times a second, each swing `keeps` of
@@ -296,14 +287,13 @@ TEST(swings_that_go_on_are_stopped_and_nothing_else) {
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         surface_parts parts = wall(rows[i].stiffness);
         const knurl_hip_desc hip = guarded(0);
-        knurl_scene *scene = scene_with(&parts, &hip);
+        SCOPED_SCENE *scene = scene_with(&parts, &hip);
         const int first = swing_in(scene, rows[i].swing, rows[i].hz, rows[i].keeps);
         if (rows[i].before) {
             assert_in_range(first, rows[i].after, rows[i].before);
         } else {
             assert_int_equal(first, -1);
         }
-        knurl_scene_destroy(scene);
     }
 }
 
@@ -311,7 +301,7 @@ TEST(swings_that_go_on_are_stopped_and_nothing_else) {
 TEST(walls_are_hard_again_once_the_hip_has_been_off_them) {
     surface_parts parts = wall(1020.0);
     const knurl_hip_desc hip = guarded(0);
-    knurl_scene *scene = scene_with(&parts, &hip);
+    SCOPED_SCENE *scene = scene_with(&parts, &hip);
     assert_true(swing_in(scene, 0.003, 20.0, 1.0) > 0);
     for (int round = 0; round < 2; round++) {
         for (int tick = 0; tick < (round ? 520 : 480); tick++) {
@@ -325,14 +315,13 @@ TEST(walls_are_hard_again_once_the_hip_has_been_off_them) {
             assert_true(out.force[2] < 667.0 * 0.0004);
         }
     }
-    knurl_scene_destroy(scene);
 }
 
 TEST(configuring_a_hip_or_giving_it_a_device_ends_an_alarm) {
     for (int adopts = 0; adopts < 2; adopts++) {
         surface_parts parts = wall(1020.0);
         const knurl_hip_desc hip = guarded(0);
-        knurl_scene *scene = scene_with(&parts, &hip);
+        SCOPED_SCENE *scene = scene_with(&parts, &hip);
         assert_true(swing_in(scene, 0.003, 20.0, 1.0) > 0);
         (void)tick_at(scene, 0.0, 0.0, -0.0004);
         assert_true(tick_at(scene, 0.0, 0.0, -0.0004).flags & KNURL_TICK_PASSIVITY);
@@ -343,12 +332,11 @@ TEST(configuring_a_hip_or_giving_it_a_device_ends_an_alarm) {
         CHECK_CLOSE(out.force[2], 1020.0 * 0.0004, 1e-12);
         assert_int_equal(out.flags & KNURL_TICK_PASSIVITY, 0);
         assert_int_equal(counts_of(scene).passivity_ticks, 0);
-        knurl_scene_destroy(scene);
     }
 }
 
 TEST(unknown_protections_and_clamps_are_refused) {
-    knurl_scene *scene = empty_scene(1);
+    SCOPED_SCENE *scene = empty_scene(1);
     const knurl_hip_desc good = guarded(0);
     knurl_hip_desc bad = good;
     bad.protections = KNURL_PROTECT_ALL + 1;
@@ -356,5 +344,4 @@ TEST(unknown_protections_and_clamps_are_refused) {
     bad = good;
     bad.clamp = 2;
     assert_int_equal(knurl_scene_configure_hip(scene, 0, &bad), KNURL_ERROR_ARGUMENT);
-    knurl_scene_destroy(scene);
 }

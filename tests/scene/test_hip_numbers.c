@@ -31,7 +31,7 @@ static knurl_result configure(knurl_scene *scene, const struct number *number, d
 }
 
 TEST(every_number_of_a_hip_is_in_its_range_or_the_hip_is_as_it_was) {
-    knurl_scene *scene = empty_scene(1);
+    SCOPED_SCENE *scene = empty_scene(1);
     char nothing = 0;
     for (size_t i = 0; i < COUNT_OF(numbers); i++) {
         const struct number *n = &numbers[i];
@@ -65,7 +65,6 @@ TEST(every_number_of_a_hip_is_in_its_range_or_the_hip_is_as_it_was) {
     assert_string_equal(knurl_error_message(),
                         "knurl_hip_desc.continuous_force: expected KNURL_DEFAULT (-1) or INFINITY or 0.01 to "
                         "1000 N, found 4.94066e-324");
-    knurl_scene_destroy(scene);
 }
 
 /* A press of a metre for 1000 ticks: no force beyond max_force, a heat that is a number, and from motors that warmed up

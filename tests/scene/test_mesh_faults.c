@@ -59,9 +59,9 @@ TEST(few_reversed_twins_leave_a_mesh_its_one_side_and_are_told) {
     static const uint32_t counts[][2] = {{1, 1}, {1, 700}, {12, 100}, {120, 10}};
     for (size_t i = 0; i < COUNT_OF(counts); i++) {
         for (int first = 0; first < 2; first++) {
-            shape s = sphere_with_twins(counts[i][0], counts[i][1], first);
+            SCOPED_SHAPE s = sphere_with_twins(counts[i][0], counts[i][1], first);
             surface_parts parts = surface_shape(&s);
-            knurl_scene *scene = scene_of(&parts);
+            SCOPED_SCENE *scene = scene_of(&parts);
             const knurl_surface_info info = info_of(scene);
             const knurl_surface_check check = check_of(scene);
             assert_int_equal(info.reversed_twins, counts[i][0]);
@@ -69,8 +69,6 @@ TEST(few_reversed_twins_leave_a_mesh_its_one_side_and_are_told) {
             assert_true(has_one_side(scene));
             assert_true(check.exceeded & KNURL_LIMIT_WINDING);
             assert_non_null(strstr(check.message, "reversed twin"));
-            knurl_scene_destroy(scene);
-            shape_free(&s);
         }
     }
 }
@@ -78,13 +76,11 @@ TEST(few_reversed_twins_leave_a_mesh_its_one_side_and_are_told) {
 TEST(more_twins_than_a_tenth_of_the_area_make_a_mesh_double_sided_and_are_told_unless_all_have_one) {
     static const uint32_t counts[][2] = {{320, 4}, {640, 2}, {1280, 1}};
     for (size_t i = 0; i < COUNT_OF(counts); i++) {
-        shape s = sphere_with_twins(counts[i][0], counts[i][1], 0);
+        SCOPED_SHAPE s = sphere_with_twins(counts[i][0], counts[i][1], 0);
         surface_parts parts = surface_shape(&s);
-        knurl_scene *scene = scene_of(&parts);
+        SCOPED_SCENE *scene = scene_of(&parts);
         const knurl_surface_check check = check_of(scene);
         assert_int_equal(info_of(scene).double_sided, 1);
         assert_int_equal((check.exceeded & KNURL_LIMIT_WINDING) != 0, counts[i][0] < 1280);
-        knurl_scene_destroy(scene);
-        shape_free(&s);
     }
 }

@@ -5,7 +5,7 @@
 TEST(surface_rises_evenly_and_stays) {
     surface_parts parts = wide_plane();
     knurl_surface_id id;
-    knurl_scene *scene = stood_on(&parts, &id);
+    SCOPED_SCENE *scene = stood_on(&parts, &id);
     const pose top = at_height(0.0, 0.0, 0.005);
     move_to(scene, id, &top, 0.05);
     for (int k = 1; k <= 80; k++) {
@@ -15,7 +15,6 @@ TEST(surface_rises_evenly_and_stays) {
         CHECK_VECTOR(out.force, 0.0, 0.0, K * depth, TOL);
         CHECK_VECTOR(out.proxy, 0.0, 0.0, depth - 0.001, 1e-12L);
     }
-    knurl_scene_destroy(scene);
 }
 
 /* Eq. 9's damping: 0.1 m/s towards the HIP are as good as the HIP's own. */
@@ -23,7 +22,7 @@ TEST(damping_takes_the_relative_velocity_along_the_normal) {
     surface_parts parts = wide_plane();
     parts.material.damping = 5.0;
     knurl_surface_id id;
-    knurl_scene *scene = stood_on(&parts, &id);
+    SCOPED_SCENE *scene = stood_on(&parts, &id);
     const pose top = at_height(0.0, 0.0, 0.005);
     move_to(scene, id, &top, 0.05);
     for (int k = 1; k <= 60; k++) {
@@ -37,7 +36,6 @@ TEST(damping_takes_the_relative_velocity_along_the_normal) {
     for (int k = 1; k < 5; k++) {
         CHECK_VECTOR(stand_at(scene, 0.0, 0.0, -0.001).force, 0.0, 0.0, 0.0, 0.0L);
     }
-    knurl_scene_destroy(scene);
 }
 
 /* The surface slides at 0.1 m/s under a HIP that rests: T3 events at f_t = fs v = 100 Hz. */
@@ -46,7 +44,7 @@ TEST(sliding_under_a_resting_hip_plays_events) {
     knurl_vibration_event event;
     knurl_surface_id id;
     set_grating(&parts, KNURL_METHOD_S2, 1000.0, 0.0, 0.0005);
-    knurl_scene *scene = stood_on(&parts, &id);
+    SCOPED_SCENE *scene = stood_on(&parts, &id);
     const pose end = at_height(0.02, 0.0, 0.0);
     assert_int_equal(knurl_vibration_event_prepare(10.0, 0.0005, &event), KNURL_OK);
     move_to(scene, id, &end, 0.2);
@@ -66,7 +64,6 @@ TEST(sliding_under_a_resting_hip_plays_events) {
             CHECK_SAME(out.surface_velocity[0], 0.0);
         }
     }
-    knurl_scene_destroy(scene);
 }
 
 TEST(surface_that_goes_with_the_hip_plays_none) {
@@ -74,7 +71,7 @@ TEST(surface_that_goes_with_the_hip_plays_none) {
     knurl_surface_id id;
     set_grating(&parts, KNURL_METHOD_S2, 1000.0, 500.0, 0.0005);
     parts.material.damping = 5.0;
-    knurl_scene *scene = stood_on(&parts, &id);
+    SCOPED_SCENE *scene = stood_on(&parts, &id);
     const pose end = at_height(0.04, 0.02, 0.01);
     move_to(scene, id, &end, 0.2);
     for (int k = 1; k < 200; k++) {
@@ -85,7 +82,6 @@ TEST(surface_that_goes_with_the_hip_plays_none) {
         CHECK_CLOSE(out.force[2], K * 0.001, TOL);
         assert_int_equal(out.event, KNURL_NO_EVENT);
     }
-    knurl_scene_destroy(scene);
 }
 
 /* About an origin that is 0.22 m off: omega x r goes past the HIP. `turns`: rad in 0.1 s. The long way round: the
@@ -94,7 +90,7 @@ static void rotate_under(double angle, double shown_angle, double sign) {
     static const double z[3] = {0.0, 0.0, 1.0};
     const double hip[3] = {0.2, 0.1, -0.001};
     surface_parts parts = wide_plane();
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     pose end = HOME;
     turn_about(z, shown_angle, end.quaternion);
     for (int i = 0; i < 4; i++) {
@@ -113,7 +109,6 @@ static void rotate_under(double angle, double shown_angle, double sign) {
         }
         CHECK_VECTOR(out.force, 0.0, 0.0, K * 0.001, TOL);
     }
-    knurl_scene_destroy(scene);
 }
 
 TEST(rotation_about_an_origin_elsewhere_slides_by_omega_cross_r) {
@@ -191,7 +186,7 @@ TEST(place_and_turn_on_the_way_have_their_closed_forms) {
         const pose to = pose_at(&w, 1.0);
         surface_parts parts = wide_plane();
         place(&parts, &w.from);
-        knurl_scene *scene = scene_of(&parts);
+        SCOPED_SCENE *scene = scene_of(&parts);
         double hip[3];
         pose_point(&w.from, (const double[3]){0.001, -0.002, 0.02}, hip); /* first in front: comes in when it is time */
         (void)stand_at(scene, hip[0], hip[1], hip[2]);
@@ -202,7 +197,6 @@ TEST(place_and_turn_on_the_way_have_their_closed_forms) {
         while (k < 40 && check_on_the_way(scene, hip, &w, k / 40.0)) {
             k++;
         }
-        knurl_scene_destroy(scene);
     }
 }
 
@@ -217,7 +211,7 @@ TEST(arrival_is_exactly_at_the_target) {
         place(&parts, &to);
         knurl_scene *there = scene_of(&parts);
         place(&parts, &from);
-        knurl_scene *moved = scene_of(&parts);
+        SCOPED_SCENE *moved = scene_of(&parts);
         move_to(moved, knurl_scene_get_surface(moved, 0), &to, 0.003 * run); /* also 0, also not whole ticks */
         for (int k = 0; k < 3 * run + 3; k++) {
             (void)stand_at(moved, 5.0, 5.0, 5.0);
@@ -233,14 +227,13 @@ TEST(arrival_is_exactly_at_the_target) {
             check_same_output(&expected, &out);
         }
         knurl_scene_destroy(there);
-        knurl_scene_destroy(moved);
     }
 }
 
 TEST(new_target_on_the_way_goes_on_from_where_it_is) {
     surface_parts parts = wide_plane();
     knurl_surface_id id;
-    knurl_scene *scene = stood_on(&parts, &id);
+    SCOPED_SCENE *scene = stood_on(&parts, &id);
     const pose up = at_height(0.0, 0.0, 0.005);
     const pose back = at_height(0.0, 0.0, 0.001);
     move_to(scene, id, &up, 0.05);
@@ -251,7 +244,6 @@ TEST(new_target_on_the_way_goes_on_from_where_it_is) {
     for (int k = 1; k <= 30; k++) { /* 1 mm down again in 20 ticks */
         CHECK_CLOSE(stand_at(scene, 0.0, 0.0, -0.001).depth, 0.003 - 0.00005 * (k < 20 ? k : 20), 1e-12L);
     }
-    knurl_scene_destroy(scene);
 }
 
 /* As a game does it: a new target every frame, whatever the frame, before or after the last one was reached. */
@@ -259,7 +251,7 @@ TEST(targets_frame_by_frame_make_no_jumps) {
     uint64_t seed = 5;
     surface_parts parts = wide_plane();
     knurl_surface_id id;
-    knurl_scene *scene = stood_on(&parts, &id);
+    SCOPED_SCENE *scene = stood_on(&parts, &id);
     double z = 0.0;
     double last = 0.001;
     double fastest = 0.0;
@@ -278,7 +270,6 @@ TEST(targets_frame_by_frame_make_no_jumps) {
         last = out.depth;
         z = last - 0.001;
     }
-    knurl_scene_destroy(scene);
 }
 
 /* Half way through a turn another one: the normal goes on from there. */
@@ -286,7 +277,7 @@ TEST(new_turn_on_the_way_goes_on_from_where_it_is) {
     static const double y[3] = {0.0, 1.0, 0.0};
     surface_parts parts = wide_plane();
     knurl_surface_id id;
-    knurl_scene *scene = stood_on(&parts, &id);
+    SCOPED_SCENE *scene = stood_on(&parts, &id);
     pose end = HOME;
     turn_about(y, 0.4, end.quaternion);
     move_to(scene, id, &end, 0.1);
@@ -301,12 +292,11 @@ TEST(new_turn_on_the_way_goes_on_from_where_it_is) {
         const knurl_tick_output out = stand_at(scene, 0.0, 0.0, -0.001);
         CHECK_VECTOR(out.normal, sin(angle), 0.0, cos(angle), 1e-12L);
     }
-    knurl_scene_destroy(scene);
 }
 
 TEST(before_the_commit_a_way_is_made_at_once) {
     surface_parts parts = wide_plane();
-    knurl_scene *scene = empty_scene(1);
+    SCOPED_SCENE *scene = empty_scene(1);
     const knurl_surface_id id = add_surface(scene, &parts);
     const pose there = at_height(0.0, 0.0, 0.003);
     configure_plainly(scene, 0);
@@ -315,5 +305,4 @@ TEST(before_the_commit_a_way_is_made_at_once) {
     const knurl_tick_output out = stand_at(scene, 0.0, 0.0, 0.001);
     CHECK_VECTOR(out.force, 0.0, 0.0, K * 0.002, TOL);
     CHECK_CLOSE(out.surface_velocity[0], 0.0, 0.0L);
-    knurl_scene_destroy(scene);
 }

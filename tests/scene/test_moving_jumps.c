@@ -10,7 +10,7 @@ TEST(jump_passes_by_what_is_on_its_way) {
         const pose low = at_height(0.0, 0.0, -0.02);
         const pose high = at_height(0.0, 0.0, ends[i]);
         place(&parts, &low);
-        knurl_scene *scene = scene_of(&parts);
+        SCOPED_SCENE *scene = scene_of(&parts);
         (void)stand_at(scene, 0.0, 0.0, 0.0);
         (void)stand_at(scene, 0.0, 0.0, 0.0);
         move_to(scene, knurl_scene_get_surface(scene, 0), &high, 0.0);
@@ -19,7 +19,6 @@ TEST(jump_passes_by_what_is_on_its_way) {
             CHECK_VECTOR(out.force, 0.0, 0.0, 0.0, 0.0L);
             assert_int_equal(out.contacts, 0);
         }
-        knurl_scene_destroy(scene);
     }
 }
 
@@ -30,7 +29,7 @@ TEST(jump_of_what_was_on_its_way_to_the_hip_passes_by) {
     const pose high = at_height(0.0, 0.0, 0.2);
     const pose above = at_height(0.0, 0.0, 0.004);
     place(&parts, &low);
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     (void)stand_at(scene, 0.0, 0.0, 0.0);
     move_to(scene, knurl_scene_get_surface(scene, 0), &high, 10.0);
     (void)stand_at(scene, 0.0, 0.0, 0.0);
@@ -41,7 +40,6 @@ TEST(jump_of_what_was_on_its_way_to_the_hip_passes_by) {
         CHECK_VECTOR(out.force, 0.0, 0.0, 0.0, 0.0L);
         assert_int_equal(out.contacts, 0);
     }
-    knurl_scene_destroy(scene);
 }
 
 /* A HIP that was in contact has a first tick with it: held up to 10 mm deep, no contact beyond; slid past at no speed.
@@ -57,7 +55,7 @@ TEST(jump_of_what_is_touched_is_a_first_tick) {
         surface_parts parts = wide_plane();
         knurl_surface_id id;
         set_grating(&parts, KNURL_METHOD_S2, 1000.0, 0.0, 0.0005);
-        knurl_scene *scene = stood_on(&parts, &id);
+        SCOPED_SCENE *scene = stood_on(&parts, &id);
         const pose end = at_height(cases[i].x, 0.0, cases[i].z);
         move_to(scene, id, &end, 0.0);
         for (int k = 0; k < 3; k++) {
@@ -67,14 +65,13 @@ TEST(jump_of_what_is_touched_is_a_first_tick) {
             CHECK_SAME(out.surface_velocity[0], 0.0);
             assert_int_equal(out.event, KNURL_NO_EVENT);
         }
-        knurl_scene_destroy(scene);
     }
 }
 
 TEST(jump_ends_a_way) {
     surface_parts parts = wide_plane();
     knurl_surface_id id;
-    knurl_scene *scene = stood_on(&parts, &id);
+    SCOPED_SCENE *scene = stood_on(&parts, &id);
     const pose up = at_height(0.0, 0.0, 0.005);
     const pose home = HOME;
     move_to(scene, id, &up, 0.05);
@@ -83,7 +80,6 @@ TEST(jump_ends_a_way) {
     for (int k = 0; k < 60; k++) {
         CHECK_CLOSE(stand_at(scene, 0.0, 0.0, -0.001).depth, 0.001, 1e-15L);
     }
-    knurl_scene_destroy(scene);
 }
 
 /* --- time --- */
@@ -91,7 +87,7 @@ TEST(jump_ends_a_way) {
 TEST(while_nobody_ticks_the_way_waits) {
     surface_parts parts = wide_plane();
     knurl_surface_id id;
-    knurl_scene *scene = stood_on(&parts, &id);
+    SCOPED_SCENE *scene = stood_on(&parts, &id);
     const pose up = at_height(0.0, 0.0, 0.004);
     const pose higher = at_height(0.0, 0.0, 0.008);
     move_to(scene, id, &up, 0.01);
@@ -99,14 +95,13 @@ TEST(while_nobody_ticks_the_way_waits) {
     for (int k = 1; k <= 10; k++) {
         CHECK_CLOSE(stand_at(scene, 0.0, 0.0, -0.001).depth, 0.001 + 0.0008 * k, 1e-12L);
     }
-    knurl_scene_destroy(scene);
 }
 
 /* 1 kHz and 4 kHz side by side: each sees the same place at the same second, give or take a period of the slower. */
 TEST(hips_of_different_rates_see_the_same_way_in_seconds) {
     static const double rates[2] = {1000.0, 4000.0};
     surface_parts parts = wide_plane();
-    knurl_scene *scene = empty_scene(2);
+    SCOPED_SCENE *scene = empty_scene(2);
     knurl_workspace workspace;
     knurl_hip_desc hip;
     const pose up = at_height(0.0, 0.0, 0.004);
@@ -138,13 +133,12 @@ TEST(hips_of_different_rates_see_the_same_way_in_seconds) {
     }
     CHECK_CLOSE(out[0].depth, 0.005, 1e-15L);
     CHECK_CLOSE(out[1].depth, 0.005, 1e-15L);
-    knurl_scene_destroy(scene);
 }
 
 /* The faster of two alone: its own seconds count. */
 TEST(way_at_4_khz_takes_its_seconds) {
     surface_parts parts = wide_plane();
-    knurl_scene *scene = empty_scene(1);
+    SCOPED_SCENE *scene = empty_scene(1);
     knurl_workspace workspace;
     knurl_hip_desc hip;
     const pose up = at_height(0.0, 0.0, 0.004);
@@ -161,7 +155,6 @@ TEST(way_at_4_khz_takes_its_seconds) {
     for (int k = 1; k <= 100; k++) {
         CHECK_CLOSE(stand_at(scene, 0.0, 0.0, -0.001).depth, 0.001 + 0.004 * (k < 80 ? k : 80) / 80.0, 1e-12L);
     }
-    knurl_scene_destroy(scene);
 }
 
 /* The bounds of a turning rectangle against its corners along the way: they hold every one, and what they have to spare
@@ -181,7 +174,7 @@ TEST(bounds_of_a_turn_hold_it_closely) {
         turn_after(turning, start.quaternion, end.quaternion);
         parts.plane.half_extents[0] = 0.3;
         place(&parts, &start);
-        knurl_scene *scene = scene_of(&parts);
+        SCOPED_SCENE *scene = scene_of(&parts);
         const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
         move_to(scene, id, &end, 1.0);
         knurl_surface_info info;
@@ -212,6 +205,5 @@ TEST(bounds_of_a_turn_hold_it_closely) {
             assert_true(info.bounds_min[i] <= least[i] && info.bounds_max[i] >= greatest[i]);
             assert_true(info.bounds_min[i] >= least[i] - spare && info.bounds_max[i] <= greatest[i] + spare);
         }
-        knurl_scene_destroy(scene);
     }
 }

@@ -64,7 +64,7 @@ static void check_held(const knurl_tick_output *out, double height) {
 
 /* The wall comes at one speed, frame by frame, the HIP at another; up to 2 m/s between them. */
 static void meet_head_on(int kind, uint32_t full_model, uint64_t *seed) {
-    shape s = {0};
+    SCOPED_SHAPE s = {0};
     surface_parts parts = wall(kind, &s);
     const pose from = random_pose(seed);
     double normal[3];
@@ -86,7 +86,7 @@ static void meet_head_on(int kind, uint32_t full_model, uint64_t *seed) {
                (const double[3]){random_between(seed, -0.03, 0.03), random_between(seed, -0.03, 0.03),
                                  random_between(seed, 0.0005, 0.01)},
                hip);
-    knurl_scene *scene = wall_scene(&parts, full_model);
+    SCOPED_SCENE *scene = wall_scene(&parts, full_model);
     (void)tick_moving(scene, hip, hip_velocity);
     pose now = from;
     const int frame = (int)random_integer(seed, 1, 20); /* ticks */
@@ -102,8 +102,6 @@ static void meet_head_on(int kind, uint32_t full_model, uint64_t *seed) {
         const knurl_tick_output out = tick_moving(scene, hip, hip_velocity);
         check_held(&out, height_over(&now, hip));
     }
-    knurl_scene_destroy(scene);
-    shape_free(&s);
 }
 
 TEST(no_wall_that_comes_head_on_tunnels) {
@@ -116,7 +114,7 @@ TEST(no_wall_that_comes_head_on_tunnels) {
 /* A paddle swings round at the HIP, 2 m/s at its place at most. */
 static void swing(int kind, uint32_t full_model, uint64_t *seed) {
     static const double x[3] = {1.0, 0.0, 0.0};
-    shape s = {0};
+    SCOPED_SHAPE s = {0};
     surface_parts parts = wall(kind, &s);
     const double radius = random_between(seed, 0.02, 0.09);
     const double omega = random_between(seed, 0.5, 2.0) / radius;
@@ -125,7 +123,7 @@ static void swing(int kind, uint32_t full_model, uint64_t *seed) {
     pose from = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};
     turn_about(x, start, from.quaternion); /* its +y edge is below the HIP and comes up */
     place(&parts, &from);
-    knurl_scene *scene = wall_scene(&parts, full_model);
+    SCOPED_SCENE *scene = wall_scene(&parts, full_model);
     (void)tick_moving(scene, hip, (const double[3]){0.0, 0.0, 0.0});
     pose end = from;
     const int ticks = (int)fmin(50.0, 2.0 / (omega * TICK)); /* less than half a turn: that is the way it goes */
@@ -137,8 +135,6 @@ static void swing(int kind, uint32_t full_model, uint64_t *seed) {
         const knurl_tick_output out = tick_moving(scene, hip, (const double[3]){0.0, 0.0, 0.0});
         check_held(&out, height_over(&now, hip));
     }
-    knurl_scene_destroy(scene);
-    shape_free(&s);
 }
 
 TEST(no_paddle_that_swings_round_tunnels) {
@@ -153,14 +149,13 @@ TEST(single_sided_wall_that_comes_from_behind_passes) {
     surface_parts parts = surface_plane();
     pose p = {{0.0, 0.0, 0.0203}, {0.0, 0.0, 0.0, 1.0}};
     place(&parts, &p);
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     (void)tick_at(scene, 0.0, 0.0, 0.0);
     p.position[2] = -0.0297;
     move_to(scene, knurl_scene_get_surface(scene, 0), &p, 0.05);
     for (int k = 0; k < 60; k++) {
         assert_int_equal(tick_at(scene, 0.0, 0.0, 0.0).contacts, 0);
     }
-    knurl_scene_destroy(scene);
 }
 
 TEST(double_sided_wall_that_comes_from_behind_pushes) {
@@ -168,7 +163,7 @@ TEST(double_sided_wall_that_comes_from_behind_pushes) {
     pose p = {{0.0, 0.0, 0.0205}, {0.0, 0.0, 0.0, 1.0}}; /* farther than a first tick captures */
     parts.desc.double_sided = 1;
     place(&parts, &p);
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     (void)tick_at(scene, 0.0, 0.0, 0.0);
     p.position[2] = -0.0195;
     move_to(scene, knurl_scene_get_surface(scene, 0), &p, 0.04);
@@ -176,7 +171,6 @@ TEST(double_sided_wall_that_comes_from_behind_pushes) {
         const knurl_tick_output out = tick_at(scene, 0.0, 0.0, 0.0);
         CHECK_CLOSE(out.force[2], k > 20 ? -K * (0.001 * k - 0.0205) : 0.0, 1e-9L);
     }
-    knurl_scene_destroy(scene);
 }
 
 /* --- Galilei --- */
@@ -202,14 +196,14 @@ static void press_down(knurl_scene *scene, const double at[3]) {
 
 /* Hills glide past a HIP that rests, as the HIP glides over hills that rest. */
 static void compare_gliding(int32_t method, const double velocity[3], double friction) {
-    shape sheet = shape_sheet(60, 60, (const double[2]){0.1, 0.1}, hills);
+    SCOPED_SHAPE sheet = shape_sheet(60, 60, (const double[2]){0.1, 0.1}, hills);
     surface_parts parts = surface_mesh(&sheet);
     set_grating(&parts, method, 731.0, 0.0, 0.0003);
     parts.desc.axis[0] = 1.0;
     parts.material.damping = 0.5;
     parts.material.friction = friction;
     knurl_scene *moving = scene_of(&parts);
-    knurl_scene *resting = scene_of(&parts);
+    SCOPED_SCENE *resting = scene_of(&parts);
     const double at[3] = {0.0131, -0.0173, -0.0062};
     const double none[3] = {0.0, 0.0, 0.0};
     press_down(moving, at);
@@ -228,8 +222,6 @@ static void compare_gliding(int32_t method, const double velocity[3], double fri
     }
     assert_true(touched > 150);
     knurl_scene_destroy(moving);
-    knurl_scene_destroy(resting);
-    shape_free(&sheet);
 }
 
 TEST(mesh_that_glides_feels_as_a_hip_that_glides_over_it) {
@@ -244,12 +236,12 @@ TEST(mesh_that_glides_feels_as_a_hip_that_glides_over_it) {
  * velocity over the surface is taken at the proxy, that of a HIP which circles is the HIP's. */
 static void compare_turning(double omega, double friction) {
     static const double z[3] = {0.0, 0.0, 1.0};
-    shape sheet = shape_sheet(60, 60, (const double[2]){0.1, 0.1}, hills);
+    SCOPED_SHAPE sheet = shape_sheet(60, 60, (const double[2]){0.1, 0.1}, hills);
     surface_parts parts = surface_mesh(&sheet);
     parts.desc.axis[0] = 1.0;
     parts.material.friction = friction;
     knurl_scene *moving = scene_of(&parts);
-    knurl_scene *resting = scene_of(&parts);
+    SCOPED_SCENE *resting = scene_of(&parts);
     const double at[3] = {0.0431, -0.0273, -0.0062};
     const double none[3] = {0.0, 0.0, 0.0};
     press_down(moving, at);
@@ -274,8 +266,6 @@ static void compare_turning(double omega, double friction) {
         CHECK_VECTOR(out.force, force[0], force[1], force[2], 1e-9L * (1.0 + length3(force)));
     }
     knurl_scene_destroy(moving);
-    knurl_scene_destroy(resting);
-    shape_free(&sheet);
 }
 
 TEST(mesh_that_turns_feels_as_a_hip_that_circles_over_it) {

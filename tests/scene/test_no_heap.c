@@ -112,14 +112,13 @@ static void add_touched(knurl_scene *scene, surface_parts *parts, int32_t method
 
 /* A plane and hills of 10,000 triangles side by side; they overlap by 10 mm. */
 static void add_plane_and_mesh(knurl_scene *scene, int32_t method, double friction) {
-    shape mesh = shape_sheet(100, 50, (const double[2]){0.05, 0.05}, hills);
+    SCOPED_SHAPE mesh = shape_sheet(100, 50, (const double[2]){0.05, 0.05}, hills);
     surface_parts plane = surface_plane();
     surface_parts sheet = surface_mesh(&mesh);
     assert_int_equal(mesh.index_count / 3, 10000);
     plane.material.friction = sheet.material.friction = friction;
     add_touched(scene, &plane, method, 0.0);
     add_touched(scene, &sheet, method, 0.09);
-    shape_free(&mesh);
 }
 
 /* A floor of 40 x 50 tiles side by side: more than a HIP can keep in view, and one hands it over to the next. */
@@ -311,7 +310,7 @@ TEST(ticks_ask_for_no_memory_and_wait_for_nobody) {
     for (size_t i = 0; i < COUNT_OF(scenes); i++) {
         const struct stroked *what = &scenes[i];
         const uint64_t before_all = calls;
-        knurl_scene *scene = make_scene(what);
+        SCOPED_SCENE *scene = make_scene(what);
         assert_true(calls > before_all + 10); /* the wrapping works */
         stroke s = at_start;
         for (int segment = 0; segment < SEGMENTS; segment++) {
@@ -325,7 +324,6 @@ TEST(ticks_ask_for_no_memory_and_wait_for_nobody) {
             }
         }
         check_stroke(scene, what, &s);
-        knurl_scene_destroy(scene);
     }
 }
 
@@ -385,7 +383,7 @@ static int kernel_is_strict(void) {
 /* Edits are made here, and so may ask for anything; then a child does the ticks up to the next edit, and the same ones
  * are done here, to go on from. */
 static void stroke_strictly(const struct stroked *what) {
-    knurl_scene *scene = make_scene(what);
+    SCOPED_SCENE *scene = make_scene(what);
     stroke s = at_start;
     assert_true(WIFSIGNALED(run_strictly(scene, &s, 1))); /* a call would be noticed */
     for (int segment = 0; segment < SEGMENTS; segment++) {
@@ -399,7 +397,6 @@ static void stroke_strictly(const struct stroked *what) {
         }
     }
     check_stroke(scene, what, &s);
-    knurl_scene_destroy(scene);
 }
 
 TEST(ticks_make_no_system_call) {

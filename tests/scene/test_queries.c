@@ -23,7 +23,7 @@ static void check_transform(const knurl_scene *scene, knurl_surface_id id, const
 /* The second is a flat mesh off its origin, which the scene keeps as a plane with a frame of its own. */
 TEST(the_transform_that_was_set_is_got) {
     uint64_t seed = 23;
-    shape sheet = shape_sheet(4, 4, (const double[2]){0.02, 0.03}, flat);
+    SCOPED_SHAPE sheet = shape_sheet(4, 4, (const double[2]){0.02, 0.03}, flat);
     for (uint32_t i = 0; i < sheet.vertex_count; i++) {
         sheet.positions[3 * i] += 0.25F;
     }
@@ -34,21 +34,19 @@ TEST(the_transform_that_was_set_is_got) {
             memcpy(parts[i].desc.position, before.position, sizeof before.position);
             memcpy(parts[i].desc.rotation, before.quaternion, sizeof before.quaternion);
             parts[i].desc.axis[0] = 1.0;
-            knurl_scene *scene = scene_of(&parts[i]);
+            SCOPED_SCENE *scene = scene_of(&parts[i]);
             const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
             check_transform(scene, id, &before);
             assert_int_equal(knurl_scene_set_transform(scene, id, after.position, after.quaternion, 0.0), KNURL_OK);
             check_transform(scene, id, &after);
-            knurl_scene_destroy(scene);
         }
     }
-    shape_free(&sheet);
 }
 
 TEST(the_transform_of_a_moving_surface_is_that_on_its_way) {
     static const double z[3] = {0.0, 0.0, 1.0};
     surface_parts parts = surface_plane();
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
     pose end = {{0.1, -0.2, 0.0}, {0.0}}, middle = {{0.05, -0.1, 0.0}, {0.0}};
     turn_about(z, 1.0, end.quaternion);
@@ -62,13 +60,12 @@ TEST(the_transform_of_a_moving_surface_is_that_on_its_way) {
         (void)tick_at(scene, 0.0, 0.0, 0.5);
     }
     check_transform(scene, id, &end);
-    knurl_scene_destroy(scene);
 }
 
 TEST(ids_are_valid_while_their_surface_is_in_their_scene) {
     surface_parts parts = surface_plane();
     knurl_scene *scene = scene_of(&parts);
-    knurl_scene *other = scene_of(&parts);
+    SCOPED_SCENE *other = scene_of(&parts);
     const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
     assert_int_equal(knurl_scene_has_surface(scene, id), 1);
     assert_int_equal(knurl_scene_has_surface(scene, 0), 0);
@@ -76,14 +73,13 @@ TEST(ids_are_valid_while_their_surface_is_in_their_scene) {
     assert_int_equal(knurl_scene_remove_surface(scene, id), KNURL_OK);
     assert_int_equal(knurl_scene_has_surface(scene, id), 0);
     knurl_scene_destroy(scene);
-    knurl_scene_destroy(other);
 }
 
 TEST(user_data_stays_with_a_surface_until_it_is_removed) {
     int thing;
     void *data = &thing;
     surface_parts parts = surface_plane();
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
     assert_int_equal(knurl_scene_get_user_data(scene, id, &data), KNURL_OK);
     assert_null(data);
@@ -94,7 +90,6 @@ TEST(user_data_stays_with_a_surface_until_it_is_removed) {
     assert_int_equal(knurl_scene_remove_surface(scene, id), KNURL_OK);
     assert_int_equal(knurl_scene_get_user_data(scene, id, &data), KNURL_ERROR_STALE_ID);
     assert_int_equal(knurl_scene_set_user_data(scene, id, &thing), KNURL_ERROR_STALE_ID);
-    knurl_scene_destroy(scene);
 }
 
 /* --- the closest point --- */
@@ -144,10 +139,10 @@ static nearest find_nearest(const pose *poses, const double *p) {
 TEST(the_closest_point_of_three_surfaces_is_the_closest_of_each_ones) {
     uint64_t seed = 5;
     shape box = shape_box(half_edges[1], 0);
-    shape sheet = shape_sheet(1, 1, half_edges[2], flat);
+    SCOPED_SHAPE sheet = shape_sheet(1, 1, half_edges[2], flat);
     surface_parts parts[3] = {surface_plane(), surface_mesh(&box), surface_mesh(&sheet)};
     for (int round = 0; round < 40; round++) {
-        knurl_scene *scene = empty_scene(1);
+        SCOPED_SCENE *scene = empty_scene(1);
         knurl_surface_id ids[3];
         pose poses[3];
         for (int i = 0; i < 3; i++) {
@@ -175,36 +170,32 @@ TEST(the_closest_point_of_three_surfaces_is_the_closest_of_each_ones) {
             assert_int_equal(knurl_scene_find_closest(scene, p, 1.001 * n.distance, &found), KNURL_OK);
             assert_true(found.surface == ids[n.surface]);
         }
-        knurl_scene_destroy(scene);
     }
     shape_free(&box);
-    shape_free(&sheet);
 }
 
 TEST(the_normal_at_the_closest_point_is_the_fronts) {
     static const double half[3] = {0.03, 0.02, 0.04};
     static const double above[3] = {0.001, 0.002, 0.5}, below[3] = {0.001, 0.002, -0.5};
-    shape box = shape_box(half, 0);
+    SCOPED_SHAPE box = shape_box(half, 0);
     surface_parts parts[2] = {surface_plane(), surface_mesh(&box)};
     for (int i = 0; i < 2; i++) {
         knurl_surface_point found;
         knurl_surface_point_init(&found, sizeof found);
         parts[i].desc.axis[0] = 1.0;
-        knurl_scene *scene = scene_of(&parts[i]);
+        SCOPED_SCENE *scene = scene_of(&parts[i]);
         assert_int_equal(knurl_scene_find_closest(scene, above, 1.0, &found), KNURL_OK);
         CHECK_VECTOR(found.normal, 0.0, 0.0, 1.0, 1e-9);
         assert_int_equal(knurl_scene_find_closest(scene, below, 1.0, &found), KNURL_OK);
         CHECK_VECTOR(found.normal, 0.0, 0.0, i == 0 ? 1.0 : -1.0, 1e-9); /* a plane has one front */
-        knurl_scene_destroy(scene);
     }
-    shape_free(&box);
 }
 
 TEST(a_closest_point_is_asked_for_with_numbers_in_range) {
     static const double nowhere[3] = {0.0, (double)NAN, 0.0}, here[3] = {0.0, 0.0, 0.0};
     static const double beyond[3] = {0.0, 0.0, 1e300}, far[3] = {0.0, 0.0, 1e9};
     surface_parts parts = surface_plane();
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     knurl_surface_point found;
     knurl_surface_point_init(&found, sizeof found);
     CHECK_REFUSED(knurl_scene_find_closest(scene, nowhere, 1.0, &found), KNURL_ERROR_ARGUMENT, found);
@@ -218,7 +209,6 @@ TEST(a_closest_point_is_asked_for_with_numbers_in_range) {
     assert_int_equal(knurl_scene_find_closest(scene, far, (double)INFINITY, &found), KNURL_OK);
     assert_true(found.surface != 0);
     CHECK_CLOSE(found.distance / 1e9, 1.0, 1e-12);
-    knurl_scene_destroy(scene);
 }
 
 /* --- rays --- */
@@ -310,7 +300,7 @@ TEST(a_ray_hits_the_first_of_three_surfaces) {
     uint64_t seed = 9;
     int hits[4] = {0};
     shape box = shape_box(THREE_HALVES[1], 0);
-    shape sheet = shape_sheet(1, 1, THREE_HALVES[2], flat);
+    SCOPED_SHAPE sheet = shape_sheet(1, 1, THREE_HALVES[2], flat);
     surface_parts parts[3] = {surface_plane(), surface_mesh(&box), surface_mesh(&sheet)};
     parts[2].desc.double_sided = 1;
     for (int round = 0; round < 40; round++) {
@@ -327,14 +317,13 @@ TEST(a_ray_hits_the_first_of_three_surfaces) {
     }
     assert_true(hits[0] > 100 && hits[1] > 100 && hits[2] > 100 && hits[3] > 100);
     shape_free(&box);
-    shape_free(&sheet);
 }
 
 TEST(a_ray_ends_where_it_is_told_to_and_meets_a_surface_where_it_is_now) {
     static const double unturned[4] = {0.0, 0.0, 0.0, 1.0}, above[3] = {0.0, 0.0, 0.3}, on[3] = {0.0, 0.0, 0.0};
     static const double below[3] = {0.0, 0.0, -0.01}, raised[3] = {0.0, 0.0, 0.1};
     surface_parts parts = surface_plane();
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
     knurl_surface_point found;
     knurl_surface_point_init(&found, sizeof found);
@@ -352,13 +341,12 @@ TEST(a_ray_ends_where_it_is_told_to_and_meets_a_surface_where_it_is_now) {
     assert_int_equal(knurl_scene_remove_surface(scene, id), KNURL_OK);
     assert_int_equal(knurl_scene_cast_ray(scene, above, below, &found), KNURL_OK);
     assert_true(found.surface == 0 && found.distance == 0.0);
-    knurl_scene_destroy(scene);
 }
 
 TEST(a_ray_is_cast_with_numbers_in_range) {
     static const double nowhere[3] = {0.0, (double)NAN, 0.0}, beyond[3] = {0.0, 0.0, -1e31}, here[3] = {0.0, 0.0, 0.1};
     surface_parts parts = surface_plane();
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     knurl_surface_point found;
     knurl_surface_point_init(&found, sizeof found);
     CHECK_REFUSED(knurl_scene_cast_ray(scene, nowhere, here, &found), KNURL_ERROR_ARGUMENT, found);
@@ -366,7 +354,6 @@ TEST(a_ray_is_cast_with_numbers_in_range) {
     assert_string_equal(knurl_error_message(), "to: expected numbers from -1e+09 to 1e+09 m, found [0, 0, -1e+31]");
     assert_int_equal(knurl_scene_cast_ray(scene, here, here, &found), KNURL_OK);
     assert_true(found.surface == 0);
-    knurl_scene_destroy(scene);
 }
 
 /* --- contacts --- */
@@ -386,7 +373,7 @@ static knurl_scene *floor_and_wall(knurl_surface_id ids[2]) {
 TEST(every_contact_of_a_tick_is_told) {
     knurl_surface_id ids[2];
     knurl_hip_contact contacts[KNURL_CONTACTS_MAX];
-    knurl_scene *scene = floor_and_wall(ids);
+    SCOPED_SCENE *scene = floor_and_wall(ids);
     assert_int_equal(knurl_scene_get_contacts(scene, 0, contacts, KNURL_CONTACTS_MAX), 0);
     (void)tick_at(scene, 0.01, 0.0, 0.01);
     assert_int_equal(knurl_scene_get_contacts(scene, 0, contacts, KNURL_CONTACTS_MAX), 0);
@@ -407,13 +394,12 @@ TEST(every_contact_of_a_tick_is_told) {
         CHECK_CLOSE(contacts[i].depth, is_wall ? 0.002 : 0.001, 1e-8);
         assert_true(contacts[i].reserved[0] == 0 && contacts[i].reserved[5] == 0);
     }
-    knurl_scene_destroy(scene);
 }
 
 TEST(contacts_are_counted_beyond_the_room_that_is_given) {
     knurl_surface_id ids[2];
     knurl_hip_contact contacts[2];
-    knurl_scene *scene = floor_and_wall(ids);
+    SCOPED_SCENE *scene = floor_and_wall(ids);
     (void)tick_at(scene, 0.01, 0.0, 0.01);
     (void)tick_at(scene, -0.002, 0.0, -0.001);
     memset(contacts, 0x55, sizeof contacts);
@@ -421,13 +407,12 @@ TEST(contacts_are_counted_beyond_the_room_that_is_given) {
     assert_int_equal(contacts[1].surface, UINT64_C(0x5555555555555555));
     assert_int_equal(knurl_scene_get_contacts(scene, 0, NULL, 0), 2);
     assert_int_equal(knurl_scene_get_contacts(scene, 1, contacts, 2), 0);
-    knurl_scene_destroy(scene);
 }
 
 TEST(contacts_name_a_removed_surface_by_its_stale_id) {
     knurl_surface_id ids[2];
     knurl_hip_contact contacts[2];
-    knurl_scene *scene = floor_and_wall(ids);
+    SCOPED_SCENE *scene = floor_and_wall(ids);
     (void)tick_at(scene, 0.01, 0.0, 0.01);
     (void)tick_at(scene, 0.01, 0.0, -0.001);
     assert_int_equal(knurl_scene_remove_surface(scene, ids[0]), KNURL_OK);
@@ -435,5 +420,4 @@ TEST(contacts_name_a_removed_surface_by_its_stale_id) {
     assert_int_equal(knurl_scene_get_contacts(scene, 0, contacts, 2), 1);
     assert_true(contacts[0].surface == ids[0]);
     assert_int_equal(knurl_scene_has_surface(scene, contacts[0].surface), 0);
-    knurl_scene_destroy(scene);
 }

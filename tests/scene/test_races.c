@@ -55,11 +55,10 @@ static void configure_and_tick(void *user) {
 
 TEST(a_snapshot_is_whole_while_its_hip_is_configured_anew) {
     surface_parts parts = surface_plane();
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     torn = 0;
     together(read_snapshots, configure_and_tick, scene);
     assert_true(torn == 0);
-    knurl_scene_destroy(scene);
 }
 
 /* The origin's three numbers are the same, and the scale goes with them. */
@@ -87,13 +86,12 @@ static void configure_places(void *user) {
 }
 
 TEST(a_workspace_is_whole_while_its_hip_is_configured_anew) {
-    knurl_scene *scene = empty_scene(1);
+    SCOPED_SCENE *scene = empty_scene(1);
     assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
     configure_places(scene);
     torn = 0;
     together(read_workspace, configure_places, scene);
     assert_true(torn == 0);
-    knurl_scene_destroy(scene);
 }
 
 /* --- ticks that do not wait for the commit --- */
@@ -116,13 +114,12 @@ TEST(a_tick_sees_the_commit_and_all_that_came_before_it) {
     for (int turn = 0; turn < 100; turn++) {
         pthread_t thread;
         surface_parts parts = surface_plane();
-        knurl_scene *scene = empty_scene(1);
+        SCOPED_SCENE *scene = empty_scene(1);
         (void)add_surface(scene, &parts);
         configure_plainly(scene, 0);
         assert_int_equal(pthread_create(&thread, NULL, tick_until_committed, scene), 0);
         assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
         assert_int_equal(pthread_join(thread, NULL), 0);
-        knurl_scene_destroy(scene);
     }
     assert_true(torn == 0);
 }
@@ -158,7 +155,7 @@ static void lose_and_find(uint32_t blocking) {
     pthread_t thread;
     knurl_loop_desc desc;
     knurl_loop *loop = NULL;
-    knurl_device *device = home_open(&h, blocking);
+    SCOPED_DEVICE *device = home_open(&h, blocking);
     knurl_loop_desc_init(&desc, sizeof desc);
     desc.device = device;
     desc.force_callback = no_force;
@@ -178,7 +175,6 @@ static void lose_and_find(uint32_t blocking) {
     assert_int_equal(pthread_join(thread, NULL), 0);
     assert_true(torn == 0);
     knurl_loop_destroy(loop);
-    knurl_device_close(device);
 }
 
 TEST(a_device_can_be_asked_while_it_is_lost_and_found) {
@@ -205,7 +201,7 @@ TEST(a_loops_statistics_can_be_read_while_it_starts_and_ends) {
         pthread_t thread;
         knurl_loop_desc desc;
         knurl_loop *loop = NULL;
-        knurl_device *device = home_open(&h, 0);
+        SCOPED_DEVICE *device = home_open(&h, 0);
         knurl_loop_desc_init(&desc, sizeof desc);
         desc.device = device;
         desc.force_callback = no_force;
@@ -221,6 +217,5 @@ TEST(a_loops_statistics_can_be_read_while_it_starts_and_ends) {
         assert_int_equal(pthread_join(thread, NULL), 0);
         assert_true(torn == 0);
         knurl_loop_destroy(loop);
-        knurl_device_close(device);
     }
 }

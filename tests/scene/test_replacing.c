@@ -26,14 +26,14 @@ static void replace(knurl_scene *scene, knurl_surface_id id, surface_parts *part
 TEST(what_is_pressed_stays_pressed_whatever_takes_its_place) {
     uint64_t seed = 3;
     surface_parts parts = surface_plane();
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
     (void)tick_at(scene, 0.0, 0.0, 0.01);
     for (int i = 0; i < 500; i++) {
         const double size = random_between(&seed, 0.005, 0.2);
         const double top = random_between(&seed, -0.0005, 0.0015);
         const double half[3] = {size, size, size};
-        shape box = shape_box(half, 0);
+        SCOPED_SHAPE box = shape_box(half, 0);
         const int is_box = random_integer(&seed, 0, 2) > 0;
         parts = is_box ? box_below(&box, size, top) : surface_plane();
         parts.desc.position[2] = is_box ? parts.desc.position[2] : top;
@@ -46,15 +46,13 @@ TEST(what_is_pressed_stays_pressed_whatever_takes_its_place) {
             assert_true(out.surface == id);
             CHECK_CLOSE(out.force[2], parts.material.stiffness * (DEPTH + top), 2e-5L); /* positions are floats */
         }
-        shape_free(&box);
     }
-    knurl_scene_destroy(scene);
 }
 
 /* With the protections: the wall that took the other's place is as hard at once, and not a wall that came up. */
 TEST(the_depth_that_was_felt_goes_on) {
     surface_parts parts = surface_plane();
-    knurl_scene *scene = empty_scene(1);
+    SCOPED_SCENE *scene = empty_scene(1);
     const knurl_surface_id id = add_surface(scene, &parts);
     knurl_hip_desc hip;
     knurl_hip_desc_init(&hip, sizeof hip);
@@ -70,7 +68,6 @@ TEST(the_depth_that_was_felt_goes_on) {
     const knurl_tick_output out = tick_at(scene, 0.0, 0.0, -DEPTH);
     CHECK_CLOSE(out.force[2], before, TOL);
     assert_int_equal(out.flags & KNURL_TICK_ENTRY, 0);
-    knurl_scene_destroy(scene);
 }
 
 TEST(what_it_shrinks_away_from_ends) {
@@ -78,7 +75,7 @@ TEST(what_it_shrinks_away_from_ends) {
     const double small[3] = {0.01, 0.01, 0.01};
     shape boxes[2] = {shape_box(large, 0), shape_box(small, 0)};
     surface_parts parts = box_below(&boxes[0], 0.05, 0.0);
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     (void)tick_at(scene, 0.03, 0.0, 0.01);
     assert_int_equal(tick_at(scene, 0.03, 0.0, -DEPTH).contacts, 1);
     parts = box_below(&boxes[1], 0.01, 0.0);
@@ -88,14 +85,13 @@ TEST(what_it_shrinks_away_from_ends) {
     CHECK_VECTOR(out.force, 0.0, 0.0, 0.0, 0.0);
     shape_free(&boxes[0]);
     shape_free(&boxes[1]);
-    knurl_scene_destroy(scene);
 }
 
 /* It is found where it has grown to, and no more where it was, also by HIPs that were far away. */
 TEST(it_is_felt_where_it_is_now) {
     for (int committed = 0; committed < 2; committed++) {
         surface_parts parts = surface_plane();
-        knurl_scene *scene = empty_scene(1);
+        SCOPED_SCENE *scene = empty_scene(1);
         const knurl_surface_id id = add_surface(scene, &parts);
         configure_plainly(scene, 0);
         if (committed) {
@@ -120,13 +116,12 @@ TEST(it_is_felt_where_it_is_now) {
         assert_int_equal(tick_at(scene, 0.3, 0.0, -DEPTH).contacts, 0);
         (void)tick_at(scene, 2.0, 0.0, 0.01);
         CHECK_CLOSE(tick_at(scene, 2.0, 0.0, -DEPTH).force[2], K * DEPTH, TOL);
-        knurl_scene_destroy(scene);
     }
 }
 
 TEST(what_is_refused_leaves_the_old_one) {
     surface_parts parts = surface_plane();
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
     parts.material.stiffness = -1.0;
     assert_int_equal(knurl_scene_replace_surface(scene, id, surface_ready(&parts)), KNURL_ERROR_ARGUMENT);
@@ -137,13 +132,12 @@ TEST(what_is_refused_leaves_the_old_one) {
     CHECK_CLOSE(tick_at(scene, 0.0, 0.0, -DEPTH).force[2], K * DEPTH, TOL);
     assert_int_equal(knurl_scene_remove_surface(scene, id), KNURL_OK);
     assert_int_equal(knurl_scene_replace_surface(scene, id, surface_ready(&parts)), KNURL_ERROR_STALE_ID);
-    knurl_scene_destroy(scene);
 }
 
 TEST(the_old_one_s_memory_comes_back) {
     ledger books = {0, 0, 0, 0};
     const double half[3] = {0.05, 0.05, 0.05};
-    shape box = shape_box(half, 0);
+    SCOPED_SHAPE box = shape_box(half, 0);
     surface_parts parts = box_below(&box, 0.05, 0.0);
     knurl_scene *scene = scene_with(&books);
     configure_plainly(scene, 0);
@@ -159,5 +153,4 @@ TEST(the_old_one_s_memory_comes_back) {
     assert_true(knurl_scene_get_bytes(scene) == before && books.bytes == before);
     knurl_scene_destroy(scene);
     assert_true(books.bytes == 0);
-    shape_free(&box);
 }

@@ -190,7 +190,7 @@ TEST(surfaces_far_off_are_never_felt) {
     uint64_t seed = 3;
     surface_parts parts = surface_plane();
     parts.plane.half_extents[0] = parts.plane.half_extents[1] = 0.006;
-    knurl_scene *scene = many_scene(0, 1);
+    SCOPED_SCENE *scene = many_scene(0, 1);
     for (int i = 0; i < SIDE * SIDE; i++) {
         parts.desc.position[0] = PITCH * (i % SIDE);
         parts.desc.position[1] = PITCH * (double)(i / SIDE);
@@ -205,7 +205,6 @@ TEST(surfaces_far_off_are_never_felt) {
         assert_int_equal(out.flags, 0);
         CHECK_VECTOR(out.force, 0.0, 0.0, 0.0, 0.0L);
     }
-    knurl_scene_destroy(scene);
 }
 
 /* 50 mm deep off a rim and back onto it within the 5 ms in which that is one contact, wherever the latest query was. */
@@ -248,7 +247,7 @@ static knurl_scene *pile(uint32_t full_model, int count, double step) {
 
 TEST(more_surfaces_in_one_place_than_a_hip_looks_at_are_flagged) {
     for (int full = 0; full < 2; full++) {
-        knurl_scene *scene = pile(full ? KNURL_FULL_SEARCH : 0, 200, 0.0);
+        SCOPED_SCENE *scene = pile(full ? KNURL_FULL_SEARCH : 0, 200, 0.0);
         uint32_t flags = 0;
         for (int k = 0; k <= 100; k++) {
             const double z = 0.005 - 1e-4 * k + 3e-5;
@@ -260,7 +259,6 @@ TEST(more_surfaces_in_one_place_than_a_hip_looks_at_are_flagged) {
         assert_int_equal(flags, KNURL_TICK_CONTACT | KNURL_TICK_CONTACTS_FULL);
         (void)tick_at(scene, 0.0, 0.0, 0.05);
         assert_int_equal(tick_at(scene, 0.0, 0.0, 0.05).flags, 0); /* far from them all is forgotten */
-        knurl_scene_destroy(scene);
     }
 }
 
@@ -278,7 +276,7 @@ TEST(surfaces_taken_out_are_no_longer_near) {
     for (int committed = 0; committed < 2; committed++) {
         knurl_surface_id gone[60];
         surface_parts parts = surface_plane();
-        knurl_scene *scene = many_scene(0, 1);
+        SCOPED_SCENE *scene = many_scene(0, 1);
         if (committed) {
             assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
         }
@@ -293,7 +291,6 @@ TEST(surfaces_taken_out_are_no_longer_near) {
             assert_int_equal(knurl_scene_remove_surface(scene, gone[i]), KNURL_OK);
         }
         press_on(scene, floor_id);
-        knurl_scene_destroy(scene);
     }
 }
 
@@ -301,7 +298,7 @@ TEST(surfaces_taken_out_are_no_longer_near) {
 TEST(surfaces_that_went_by_are_no_longer_near) {
     knurl_surface_id passers[60];
     surface_parts parts = surface_plane();
-    knurl_scene *scene = many_scene(0, 1);
+    SCOPED_SCENE *scene = many_scene(0, 1);
     parts.plane.half_extents[0] = parts.plane.half_extents[1] = 0.01;
     for (int i = 0; i < 60; i++) {
         const pose start = {{-1.0, -0.3 + 0.01 * i, 0.02}, {0.0, 0.0, 0.0, 1.0}};
@@ -322,13 +319,12 @@ TEST(surfaces_that_went_by_are_no_longer_near) {
     for (int k = 0; k < 10; k++) {
         press_on(scene, floor_id);
     }
-    knurl_scene_destroy(scene);
 }
 
 TEST(each_of_many_moved_surfaces_is_felt_where_it_went_next) {
     knurl_surface_id movers[40];
     surface_parts parts = surface_plane();
-    knurl_scene *scene = many_scene(0, 1);
+    SCOPED_SCENE *scene = many_scene(0, 1);
     parts.plane.half_extents[0] = parts.plane.half_extents[1] = 0.01;
     for (int i = 0; i < 40; i++) {
         const pose start = {{0.03 * i, -1.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};
@@ -347,7 +343,6 @@ TEST(each_of_many_moved_surfaces_is_felt_where_it_went_next) {
         const knurl_tick_output out = tick_at(scene, -0.5, 0.05 * i, -0.0005);
         assert_int_equal(out.surface, movers[i]);
     }
-    knurl_scene_destroy(scene);
 }
 
 /* One tick across the whole scene comes by thousands; the next ones are ordinary again, and miss nothing. */
@@ -356,7 +351,7 @@ TEST(after_a_leap_across_everything_all_is_felt_again) {
         uint64_t seed = 12;
         surface_parts parts = surface_plane();
         parts.plane.half_extents[0] = parts.plane.half_extents[1] = 0.5 * PITCH;
-        knurl_scene *scene = many_scene(full ? KNURL_FULL_SEARCH : 0, 1);
+        SCOPED_SCENE *scene = many_scene(full ? KNURL_FULL_SEARCH : 0, 1);
         for (int i = 0; i < SIDE * SIDE; i++) {
             parts.desc.position[0] = PITCH * (i % SIDE);
             parts.desc.position[1] = PITCH * (double)(i / SIDE);
@@ -378,14 +373,13 @@ TEST(after_a_leap_across_everything_all_is_felt_again) {
                 (void)tick_at(scene, x, y, 0.005);
             }
         }
-        knurl_scene_destroy(scene);
     }
 }
 
 /* 100 planes, 0.3 mm apart: whichever is on top is met first, however many are near. */
 TEST(of_a_stack_the_topmost_is_met_first) {
     for (int full = 0; full < 2; full++) {
-        knurl_scene *scene = pile(full ? KNURL_FULL_SEARCH : 0, 100, 0.0003);
+        SCOPED_SCENE *scene = pile(full ? KNURL_FULL_SEARCH : 0, 100, 0.0003);
         const double top = 0.0003 * 99;
         for (int k = 0; k <= 200; k++) {
             const double z = top + 0.005 - 4e-5 * k - 1e-5; /* 3 mm deep in the end */
@@ -395,13 +389,12 @@ TEST(of_a_stack_the_topmost_is_met_first) {
             CHECK_CLOSE(out.force[2], K * depth, 1e-9L);
             CHECK_CLOSE(out.depth, depth, 1e-12L);
         }
-        knurl_scene_destroy(scene);
     }
 }
 
 TEST(eight_hips_feel_each_what_one_alone_feels) {
     enum { HIPS = 8 };
-    shape s = shape_sheet(2, 2, (const double[2]){0.006, 0.005}, bowl);
+    SCOPED_SHAPE s = shape_sheet(2, 2, (const double[2]){0.006, 0.005}, bowl);
     knurl_scene *together = many_scene(0, HIPS);
     wanderer w[HIPS];
     lay_tiles(together, 55, &s);
@@ -426,7 +419,7 @@ TEST(eight_hips_feel_each_what_one_alone_feels) {
     }
     knurl_scene_destroy(together);
     for (uint32_t i = 0; i < HIPS; i += 3) {
-        knurl_scene *alone = many_scene(0, 1);
+        SCOPED_SCENE *alone = many_scene(0, 1);
         wanderer v = {{0.1 * i, 0.5, 0.004}, {0.0, 0.0, -0.1}, 0};
         uint64_t seed = 100 + i;
         lay_tiles(alone, 55, &s);
@@ -436,7 +429,5 @@ TEST(eight_hips_feel_each_what_one_alone_feels) {
             const knurl_tick_output out = tick_moving(alone, v.at, v.velocity);
             check_same_output(&out, &told[i][k]);
         }
-        knurl_scene_destroy(alone);
     }
-    shape_free(&s);
 }

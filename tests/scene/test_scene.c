@@ -67,17 +67,16 @@ TEST(scene_descriptions_out_of_range_are_refused) {
 
 TEST(a_scene_is_committed_once) {
     surface_parts parts = surface_plane();
-    knurl_scene *scene = empty_scene(1);
+    SCOPED_SCENE *scene = empty_scene(1);
     knurl_surface_id id = add_surface(scene, &parts);
     assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
     CHECK_REFUSED(knurl_scene_commit(scene), KNURL_ERROR_STATE, id);
     assert_int_equal(knurl_scene_get_surface_count(scene), 1);
-    knurl_scene_destroy(scene);
 }
 
 TEST(ids_of_removed_surfaces_stay_stale) {
     surface_parts parts = surface_plane();
-    knurl_scene *scene = empty_scene(1);
+    SCOPED_SCENE *scene = empty_scene(1);
     const char *name = "untouched";
     knurl_surface_info info;
     knurl_surface_info_init(&info, sizeof info);
@@ -95,7 +94,6 @@ TEST(ids_of_removed_surfaces_stay_stale) {
     }
     assert_int_equal(knurl_scene_get_surface_name(scene, kept, &name), KNURL_OK);
     assert_int_equal(knurl_scene_get_surface_name(scene, next, &name), KNURL_OK);
-    knurl_scene_destroy(scene);
 }
 
 TEST(an_id_of_another_scene_is_stale_and_says_so) {
@@ -125,7 +123,7 @@ TEST(an_id_of_another_scene_is_stale_and_says_so) {
 
 TEST(order_of_adding_survives_removal) {
     surface_parts parts = surface_plane();
-    knurl_scene *scene = empty_scene(1);
+    SCOPED_SCENE *scene = empty_scene(1);
     knurl_surface_id ids[9];
     for (int i = 0; i < 9; i++) {
         ids[i] = add_surface(scene, &parts);
@@ -138,13 +136,12 @@ TEST(order_of_adding_survives_removal) {
     for (uint32_t i = 0; i < 8; i++) {
         assert_true(knurl_scene_get_surface(scene, i) == expected[i]);
     }
-    knurl_scene_destroy(scene);
 }
 
 TEST(full_scene_has_room_after_a_removal) {
     surface_parts parts = surface_plane();
     knurl_scene_desc desc;
-    knurl_scene *scene = NULL;
+    SCOPED_SCENE *scene = NULL;
     knurl_surface_id id = 0;
     knurl_scene_desc_init(&desc, sizeof desc);
     desc.max_surfaces = 6;
@@ -156,12 +153,11 @@ TEST(full_scene_has_room_after_a_removal) {
     assert_int_equal(knurl_scene_remove_surface(scene, id), KNURL_OK);
     (void)add_surface(scene, &parts);
     CHECK_ADD_REFUSED(scene, &parts, KNURL_ERROR_FULL, "6");
-    knurl_scene_destroy(scene);
 }
 
 TEST(every_method_is_taken_and_an_unknown_one_refused_with_a_sentence) {
     surface_parts parts = surface_plane();
-    knurl_scene *scene = empty_scene(1);
+    SCOPED_SCENE *scene = empty_scene(1);
     const knurl_surface_id id = add_surface(scene, &parts);
     for (parts.material.method = KNURL_METHOD_DEFAULT; parts.material.method <= KNURL_METHOD_BANDLIMITED;
          parts.material.method++) {
@@ -171,7 +167,6 @@ TEST(every_method_is_taken_and_an_unknown_one_refused_with_a_sentence) {
     parts.material.method = 99;
     CHECK_ADD_REFUSED(scene, &parts, KNURL_ERROR_UNKNOWN, "99");
     CHECK_REFUSED(knurl_scene_set_material(scene, id, &parts.material), KNURL_ERROR_UNKNOWN, id);
-    knurl_scene_destroy(scene);
 }
 
 TEST(materials_out_of_range_are_refused_by_name) {
@@ -192,7 +187,7 @@ TEST(materials_out_of_range_are_refused_by_name) {
         {&bad.material.friction, "friction", -0.1},
         {&bad.material.orientation, "orientation", (double)NAN},
     };
-    knurl_scene *scene = empty_scene(1);
+    SCOPED_SCENE *scene = empty_scene(1);
     const knurl_surface_id id = add_surface(scene, &good);
     for (size_t i = 0; i < COUNT_OF(fields); i++) {
         for (size_t k = 0; k <= COUNT_OF(NO_NUMBERS); k++) {
@@ -206,13 +201,12 @@ TEST(materials_out_of_range_are_refused_by_name) {
     knurl_material_desc_init(&material, sizeof material);
     assert_int_equal(knurl_scene_get_material(scene, id, &material), KNURL_OK); /* what was set first still holds */
     assert_memory_equal(&material, &good.material, sizeof material);
-    knurl_scene_destroy(scene);
 }
 
 TEST(places_out_of_range_are_refused_by_name) {
     surface_parts good = surface_plane();
     surface_parts bad;
-    knurl_scene *scene = empty_scene(1);
+    SCOPED_SCENE *scene = empty_scene(1);
     for (size_t k = 0; k < COUNT_OF(NO_NUMBERS); k++) {
         for (int axis = 0; axis < 3; axis++) {
             bad = good;
@@ -240,7 +234,6 @@ TEST(places_out_of_range_are_refused_by_name) {
     bad = good;
     bad.plane.half_extents[1] = 0.0;
     CHECK_ADD_REFUSED(scene, &bad, KNURL_ERROR_ARGUMENT, "half_extents[1]");
-    knurl_scene_destroy(scene);
 }
 
 /* The rotation is about z x normal: x, y, z, w = (-ny, nx, 0, 1 + nz) / sqrt(2 + 2 nz). */
@@ -249,7 +242,7 @@ TEST(a_surface_with_a_normal_is_turned_to_it_the_shortest_way) {
                                         {0.0, 0.0, 1.0},  {1.0, 2.0, 3.0},  {-1.0, 2.0, -3.0}, {1e-9, -1e-9, -1.0},
                                         {0.3, -0.4, 0.0}, {0.0, 1e-3, -1.0}};
     surface_parts parts = surface_plane();
-    knurl_scene *scene = empty_scene(1);
+    SCOPED_SCENE *scene = empty_scene(1);
     double position[3], q[4];
     for (size_t i = 0; i < COUNT_OF(normals); i++) {
         const double *n = normals[i];
@@ -266,13 +259,12 @@ TEST(a_surface_with_a_normal_is_turned_to_it_the_shortest_way) {
     parts.desc.rotation[0] = 1.0;
     parts.desc.rotation[3] = 0.0;
     CHECK_ADD_REFUSED(scene, &parts, KNURL_ERROR_ARGUMENT, "rotation: expected 0, 0, 0, 1 with a normal");
-    knurl_scene_destroy(scene);
 }
 
 TEST(surface_is_exactly_one_shape_with_a_material) {
-    shape sheet = shape_sheet(2, 2, (const double[2]){0.05, 0.05}, NULL);
+    SCOPED_SHAPE sheet = shape_sheet(2, 2, (const double[2]){0.05, 0.05}, NULL);
     surface_parts parts = surface_mesh(&sheet);
-    knurl_scene *scene = empty_scene(1);
+    SCOPED_SCENE *scene = empty_scene(1);
     knurl_surface_id id = 77;
     knurl_surface_desc desc = *surface_ready(&parts);
     desc.plane = &parts.plane;
@@ -290,15 +282,13 @@ TEST(surface_is_exactly_one_shape_with_a_material) {
     parts.mesh.index_count = 4;
     CHECK_ADD_REFUSED(scene, &parts, KNURL_ERROR_ARGUMENT, "multiple of 3");
     assert_int_equal(knurl_scene_get_surface_count(scene), 0);
-    knurl_scene_destroy(scene);
-    shape_free(&sheet);
 }
 
 TEST(mesh_needs_a_direction_and_s1_coordinates) {
     float tangents[9 * 4] = {0};
-    shape sheet = shape_sheet(2, 2, (const double[2]){0.05, 0.05}, NULL);
+    SCOPED_SHAPE sheet = shape_sheet(2, 2, (const double[2]){0.05, 0.05}, NULL);
     surface_parts parts = surface_mesh(&sheet);
-    knurl_scene *scene = empty_scene(1);
+    SCOPED_SCENE *scene = empty_scene(1);
     parts.mesh.uvs = NULL;
     CHECK_ADD_REFUSED(scene, &parts, KNURL_ERROR_ARGUMENT, "axis");
     parts.mesh.tangents = tangents;
@@ -313,12 +303,10 @@ TEST(mesh_needs_a_direction_and_s1_coordinates) {
     parts.desc.axis[0] = 0.0;
     parts.mesh.uvs = sheet.uvs;
     (void)add_surface(scene, &parts);
-    knurl_scene_destroy(scene);
-    shape_free(&sheet);
 }
 
 TEST(info_tells_the_axis_that_was_given) {
-    knurl_scene *scene = NULL;
+    SCOPED_SCENE *scene = NULL;
     knurl_surface_info info;
     surface_parts parts = surface_plane();
     knurl_surface_info_init(&info, sizeof info);
@@ -333,13 +321,12 @@ TEST(info_tells_the_axis_that_was_given) {
     CHECK_CLOSE(info.axis[0], -0.6, 1e-15);
     CHECK_CLOSE(info.axis[1], 0.8, 1e-15);
     CHECK_SAME(info.axis[2], 0.0);
-    knurl_scene_destroy(scene);
 }
 
 TEST(unknown_names_are_answered_with_the_known) {
     static const char *const names[] = {"bark", "silk", "bark"};
     surface_parts parts = surface_plane();
-    knurl_scene *scene = empty_scene(1);
+    SCOPED_SCENE *scene = empty_scene(1);
     knurl_surface_id ids[3];
     knurl_surface_id found = 77;
     CHECK_REFUSED(knurl_scene_find_surface(scene, "bark", &found), KNURL_ERROR_UNKNOWN, found);
@@ -357,11 +344,10 @@ TEST(unknown_names_are_answered_with_the_known) {
     assert_int_equal(knurl_scene_remove_surface(scene, ids[0]), KNURL_OK);
     assert_int_equal(knurl_scene_find_surface(scene, "bark", &found), KNURL_OK);
     assert_true(found == ids[2]);
-    knurl_scene_destroy(scene);
 }
 
 TEST(a_hip_that_is_not_there_and_a_workspace_without_size_are_refused) {
-    knurl_scene *scene = empty_scene(2);
+    SCOPED_SCENE *scene = empty_scene(2);
     knurl_hip_desc good;
     knurl_workspace workspace;
     knurl_hip_desc_init(&good, sizeof good);
@@ -376,13 +362,12 @@ TEST(a_hip_that_is_not_there_and_a_workspace_without_size_are_refused) {
     assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
     CHECK_REFUSED(knurl_scene_get_workspace(scene, 2, &workspace), KNURL_ERROR_ARGUMENT, workspace);
     assert_int_equal(knurl_scene_get_workspace(scene, 1, &workspace), KNURL_OK);
-    knurl_scene_destroy(scene);
 }
 
 TEST(workspace_left_open_is_centred_on_all_bounds) {
     surface_parts parts = surface_plane();
     knurl_workspace workspace;
-    knurl_scene *scene = empty_scene(1);
+    SCOPED_SCENE *scene = empty_scene(1);
     parts.desc.position[0] = 1.0;
     (void)add_surface(scene, &parts);
     parts.desc.position[0] = 3.0;
@@ -395,5 +380,4 @@ TEST(workspace_left_open_is_centred_on_all_bounds) {
     /* bounds: x 0.95 to 3, y -0.55 to 0.05, z 0 to 0.3 */
     CHECK_VECTOR(workspace.origin, 0.5 * (0.95 + 3.0), 0.5 * (-0.55 + 0.05), 0.5 * (0.0 + 0.3), 1e-12);
     CHECK_SAME(workspace.scale, 1.0);
-    knurl_scene_destroy(scene);
 }

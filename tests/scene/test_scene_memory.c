@@ -8,7 +8,7 @@ static double valley(double x, double y) {
 
 TEST(removing_gives_the_bytes_back) {
     ledger books = {0, 0, 0, 0};
-    shape sheet = shape_sheet(30, 30, (const double[2]){0.05, 0.05}, valley);
+    SCOPED_SHAPE sheet = shape_sheet(30, 30, (const double[2]){0.05, 0.05}, valley);
     surface_parts parts = surface_mesh(&sheet);
     parts.desc.name = "a name of some length";
     knurl_scene *scene = scene_with(&books);
@@ -26,12 +26,11 @@ TEST(removing_gives_the_bytes_back) {
     knurl_scene_destroy(scene);
     assert_int_equal(books.blocks, 0);
     assert_true(books.bytes == 0);
-    shape_free(&sheet);
 }
 
 TEST(refused_surfaces_leave_no_bytes) {
     ledger books = {0, 0, 0, 0};
-    shape sheet = shape_sheet(3, 3, (const double[2]){0.05, 0.05}, valley);
+    SCOPED_SHAPE sheet = shape_sheet(3, 3, (const double[2]){0.05, 0.05}, valley);
     knurl_scene *scene = scene_with(&books);
     surface_parts plane = surface_plane();
     (void)add_surface(scene, &plane);
@@ -44,7 +43,6 @@ TEST(refused_surfaces_leave_no_bytes) {
     assert_true(books.bytes == before && knurl_scene_get_bytes(scene) == before);
     knurl_scene_destroy(scene);
     assert_int_equal(books.blocks, 0);
-    shape_free(&sheet);
 }
 
 /* Adds with one request refused; the scene is as it was, and the next attempt succeeds. */
@@ -78,7 +76,7 @@ static int add_without(int32_t refused, surface_parts *parts) {
 
 TEST(memory_that_runs_out_leaves_the_scene_as_it_was) {
     float tangents[16 * 4] = {0};
-    shape sheet = shape_sheet(3, 3, (const double[2]){0.05, 0.05}, valley);
+    SCOPED_SHAPE sheet = shape_sheet(3, 3, (const double[2]){0.05, 0.05}, valley);
     surface_parts parts = surface_mesh(&sheet);
     parts.mesh.tangents = tangents;
     parts.desc.name = "sheet";
@@ -87,7 +85,6 @@ TEST(memory_that_runs_out_leaves_the_scene_as_it_was) {
         refused++;
     }
     assert_in_range(refused, 12, 40); /* each part of a mesh, its scratch, the name, the scene's tables */
-    shape_free(&sheet);
 }
 
 TEST(memory_that_runs_out_makes_no_scene) {
@@ -107,7 +104,7 @@ TEST(memory_that_runs_out_makes_no_scene) {
 TEST(older_material_keeps_the_defaults_of_what_it_lacks) {
     surface_parts parts = surface_plane();
     knurl_material_desc material;
-    knurl_scene *scene = empty_scene(1);
+    SCOPED_SCENE *scene = empty_scene(1);
     parts.material.stiffness = 123.0;
     parts.material.damping = (double)NAN; /* not read */
     parts.material.friction = 7.0;
@@ -120,13 +117,12 @@ TEST(older_material_keeps_the_defaults_of_what_it_lacks) {
     CHECK_SAME(material.damping, 0.0);
     CHECK_SAME(material.friction, 0.0);
     CHECK_SAME(material.orientation, 0.0);
-    knurl_scene_destroy(scene);
 }
 
 TEST(older_surface_and_scene_descriptions_work) {
     surface_parts parts = surface_plane();
     knurl_scene_desc desc;
-    knurl_scene *scene = NULL;
+    SCOPED_SCENE *scene = NULL;
     knurl_scene_desc_init(&desc, offsetof(knurl_scene_desc, hip_count));
     assert_int_equal(desc.struct_size, 8);
     desc.max_surfaces = 1;
@@ -139,7 +135,6 @@ TEST(older_surface_and_scene_descriptions_work) {
     (void)add_surface(scene, &parts);
     assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
     assert_true((tick_at(scene, 0.049, 0.049, -0.001).flags & KNURL_TICK_CONTACT) != 0); /* the default of 0.05 */
-    knurl_scene_destroy(scene);
 }
 
 TEST(newer_structs_are_refused_only_where_their_news_is_used) {
@@ -148,7 +143,7 @@ TEST(newer_structs_are_refused_only_where_their_news_is_used) {
         double appended[2];
     } newer;
     surface_parts parts = surface_plane();
-    knurl_scene *scene = empty_scene(1);
+    SCOPED_SCENE *scene = empty_scene(1);
     const knurl_surface_id id = add_surface(scene, &parts);
     knurl_material_desc_init(&newer.known, sizeof newer);
     assert_int_equal(newer.known.struct_size, sizeof newer);
@@ -157,13 +152,12 @@ TEST(newer_structs_are_refused_only_where_their_news_is_used) {
     newer.appended[1] = 1e-300;
     CHECK_REFUSED(knurl_scene_set_material(scene, id, &newer.known), KNURL_ERROR_UNSUPPORTED, newer);
     assert_non_null(strstr(knurl_error_message(), "knurl_material_desc"));
-    knurl_scene_destroy(scene);
 }
 
 TEST(shorter_info_is_written_no_further_than_its_size) {
     surface_parts parts = surface_plane();
     knurl_surface_info info;
-    knurl_scene *scene = empty_scene(1);
+    SCOPED_SCENE *scene = empty_scene(1);
     const knurl_surface_id id = add_surface(scene, &parts);
     memset(&info, 0x77, sizeof info);
     info.struct_size = offsetof(knurl_surface_info, bytes);
@@ -171,13 +165,12 @@ TEST(shorter_info_is_written_no_further_than_its_size) {
     assert_string_equal(info.shape, "plane");
     assert_int_equal(info.struct_size, offsetof(knurl_surface_info, bytes));
     assert_true(info.bytes == UINT64_C(0x7777777777777777));
-    knurl_scene_destroy(scene);
 }
 
 TEST(info_tells_what_a_plane_came_to_be) {
     surface_parts parts = surface_plane();
     knurl_surface_info info;
-    knurl_scene *scene = empty_scene(1);
+    SCOPED_SCENE *scene = empty_scene(1);
     parts.desc.name = "wall";
     parts.desc.double_sided = 1;
     parts.desc.position[2] = 0.5;
@@ -203,19 +196,18 @@ TEST(info_tells_what_a_plane_came_to_be) {
     CHECK_VECTOR(info.anchor_x, 0.0, 0.0, 1.0, 1e-12);
     CHECK_VECTOR(info.anchor_reach, 0.03, 0.03, 0.02, 1e-12);
     CHECK_VECTOR(info.stretch, 1.0, 1.0, 1.0, 0.0L);
-    knurl_scene_destroy(scene);
 }
 
 /* A sheet 0.1 m by 0.1 m whose u runs twice as fast in its right half: dP/du is 0.15 and 0.075 m there, 0.1125 in the
  * mean. */
 TEST(info_tells_how_uvs_stretch) {
-    shape sheet = shape_sheet(2, 1, (const double[2]){0.05, 0.05}, NULL);
+    SCOPED_SHAPE sheet = shape_sheet(2, 1, (const double[2]){0.05, 0.05}, NULL);
     for (uint32_t v = 0; v < 6; v++) {
         sheet.uvs[2 * v] = v % 3 == 0 ? 0.0f : v % 3 == 1 ? 1.0f / 3.0f : 1.0f;
     }
     surface_parts parts = surface_mesh(&sheet);
     knurl_surface_info info;
-    knurl_scene *scene = empty_scene(1);
+    SCOPED_SCENE *scene = empty_scene(1);
     const knurl_surface_id id = add_surface(scene, &parts);
     knurl_surface_info_init(&info, sizeof info);
     assert_int_equal(knurl_scene_get_surface_info(scene, id, &info), KNURL_OK);
@@ -226,6 +218,4 @@ TEST(info_tells_how_uvs_stretch) {
     CHECK_VECTOR(info.anchor_normal, 0.0, 0.0, 1.0, 1e-9);
     CHECK_VECTOR(info.anchor_x, 1.0, 0.0, 0.0, 1e-6);
     CHECK_CLOSE(info.anchor[2], 0.0, 1e-9);
-    knurl_scene_destroy(scene);
-    shape_free(&sheet);
 }

@@ -19,10 +19,10 @@ static knurl_surface_desc like(surface_parts *parts, knurl_surface_id other) {
 
 /* The surface at x = 1, with the shape of the one at x = 0 or with a mesh of its own; `alone`: the first is gone. */
 static void stroke(int shared, int alone, double forces[200]) {
-    shape s = shape_sheet(32, 32, (const double[2]){0.1, 0.1}, wave);
+    SCOPED_SHAPE s = shape_sheet(32, 32, (const double[2]){0.1, 0.1}, wave);
     surface_parts parts = surface_mesh(&s);
     parts.desc.axis[0] = 1.0;
-    knurl_scene *scene = empty_scene(1);
+    SCOPED_SCENE *scene = empty_scene(1);
     configure_plainly(scene, 0);
     const knurl_surface_id first = add_surface(scene, &parts);
     const knurl_surface_desc own = *surface_ready(&parts);
@@ -39,8 +39,6 @@ static void stroke(int shared, int alone, double forces[200]) {
         const knurl_tick_output out = tick_at(scene, 1.0 + x, 0.05, i == 0 ? 0.05 : wave(x, 0.05) - 0.001);
         forces[i] = out.force[2];
     }
-    knurl_scene_destroy(scene);
-    shape_free(&s);
 }
 
 TEST(a_shared_shape_is_felt_as_its_own_would_be) {
@@ -56,10 +54,10 @@ TEST(a_shared_shape_is_felt_as_its_own_would_be) {
 }
 
 TEST(a_shared_shape_costs_its_surface_and_no_shape) {
-    shape s = shape_sheet(64, 64, (const double[2]){0.1, 0.1}, wave);
+    SCOPED_SHAPE s = shape_sheet(64, 64, (const double[2]){0.1, 0.1}, wave);
     surface_parts parts = surface_mesh(&s);
     parts.desc.axis[0] = 1.0;
-    knurl_scene *scene = empty_scene(1);
+    SCOPED_SCENE *scene = empty_scene(1);
     knurl_surface_id last = add_surface(scene, &parts);
     const uint64_t one = knurl_scene_get_bytes(scene);
     for (int i = 0; i < 99; i++) {
@@ -76,15 +74,13 @@ TEST(a_shared_shape_costs_its_surface_and_no_shape) {
         assert_true(info.axis[0] == 1.0);
     }
     assert_true(told <= knurl_scene_get_bytes(scene));
-    knurl_scene_destroy(scene);
-    shape_free(&s);
 }
 
 TEST(what_shape_of_cannot_name_is_refused) {
-    shape s = shape_sheet(4, 4, (const double[2]){0.1, 0.1}, wave);
+    SCOPED_SHAPE s = shape_sheet(4, 4, (const double[2]){0.1, 0.1}, wave);
     surface_parts parts = surface_mesh(&s);
     parts.desc.axis[0] = 1.0;
-    knurl_scene *scene = empty_scene(1);
+    SCOPED_SCENE *scene = empty_scene(1);
     const knurl_surface_id first = add_surface(scene, &parts);
     knurl_surface_desc desc = *surface_ready(&parts);
     const uint64_t before = knurl_scene_get_bytes(scene);
@@ -104,6 +100,4 @@ TEST(what_shape_of_cannot_name_is_refused) {
     assert_int_equal(knurl_scene_remove_surface(scene, first), KNURL_OK);
     desc.shape_of = first;
     assert_int_equal(knurl_scene_add_surface(scene, &desc, NULL), KNURL_ERROR_STALE_ID);
-    knurl_scene_destroy(scene);
-    shape_free(&s);
 }

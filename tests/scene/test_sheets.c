@@ -114,15 +114,13 @@ TEST(a_sheet_of_sharp_folds_holds_deep_strokes) {
         uint64_t random = seed;
         uneven_seed = seed;
         unevenness = 0.002;
-        shape sheet = shape_sheet(40, 40, (const double[2]){0.02, 0.02}, uneven);
+        SCOPED_SHAPE sheet = shape_sheet(40, 40, (const double[2]){0.02, 0.02}, uneven);
         surface_parts parts = surface_mesh(&sheet);
         parts.desc.axis[0] = 1.0;
-        knurl_scene *scene = scene_of(&parts);
+        SCOPED_SCENE *scene = scene_of(&parts);
         for (int i = 0; i < 100; i++) {
             lost += stroke_below(scene, 0.002, &random);
         }
-        knurl_scene_destroy(scene);
-        shape_free(&sheet);
     }
     assert_int_equal(lost, 0);
 }
@@ -132,9 +130,8 @@ TEST(an_uneven_sheet_with_a_t_junction_holds) {
     for (int i = 0; i < 3; i++) {
         int lost = 0;
         for (uint64_t seed = 1; seed <= 10; seed++) {
-            shape s = uneven_sheet(seed, heights[i], 0.0);
+            SCOPED_SHAPE s = uneven_sheet(seed, heights[i], 0.0);
             lost += press_uneven(&s, 100 + seed, 100);
-            shape_free(&s);
         }
         if (lost > 0) {
             fail_msg("uneven by %g m: %d of 1000 presses lost", heights[i], lost);
@@ -148,9 +145,8 @@ TEST(a_sliver_in_an_uneven_sheet_loses_no_stroke) {
     for (int i = 0; i < 4; i++) {
         int lost = 0;
         for (uint64_t seed = 1; seed <= 10; seed++) {
-            shape s = uneven_sheet(seed, 20e-6, hairs[i]);
+            SCOPED_SHAPE s = uneven_sheet(seed, 20e-6, hairs[i]);
             lost += press_uneven(&s, 200 + seed, 100);
-            shape_free(&s);
         }
         if (lost > 0) {
             fail_msg("a vertex off its edge by %g m: %d of 1000 presses lost", hairs[i], lost);
@@ -159,7 +155,7 @@ TEST(a_sliver_in_an_uneven_sheet_loses_no_stroke) {
 }
 
 TEST(a_triangle_of_no_size_beside_the_hip_is_no_surface) {
-    shape tiny = shape_new(3, 3, 0);
+    SCOPED_SHAPE tiny = shape_new(3, 3, 0);
     for (uint32_t v = 0; v < 3; v++) {
         tiny.positions[3 * v] = v == 1 ? 1e-33f : 0.0f;
         tiny.positions[3 * v + 1] = v == 2 ? 1e-33f : 0.0f;
@@ -168,7 +164,7 @@ TEST(a_triangle_of_no_size_beside_the_hip_is_no_surface) {
     surface_parts plate = surface_plane();
     surface_parts parts = surface_shape(&tiny);
     knurl_surface_id id = 0;
-    knurl_scene *scene = empty_scene(1);
+    SCOPED_SCENE *scene = empty_scene(1);
     configure_plainly(scene, 0);
     (void)add_surface(scene, &plate);
     const knurl_result result = knurl_scene_add_surface(scene, surface_ready(&parts), &id);
@@ -178,6 +174,4 @@ TEST(a_triangle_of_no_size_beside_the_hip_is_no_surface) {
         assert_true(isfinite(length3(out.force)));
     }
     assert_int_equal(result, KNURL_ERROR_ARGUMENT);
-    knurl_scene_destroy(scene);
-    shape_free(&tiny);
 }

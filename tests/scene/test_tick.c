@@ -15,7 +15,7 @@ static surface_parts grating_plane(int32_t method, double fsx, double fsy) {
 
 TEST(smooth_surface_pushes_with_stiffness_times_depth) {
     surface_parts parts = surface_plane();
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     for (int k = -20; k <= 100; k++) {
         const double depth = 1e-5 * k;
         const knurl_tick_output out = tick_at(scene, 0.01, -0.02, -depth);
@@ -35,7 +35,6 @@ TEST(smooth_surface_pushes_with_stiffness_times_depth) {
         assert_int_equal(out.event, KNURL_NO_EVENT);
         assert_int_equal(out.tick, k + 20);
     }
-    knurl_scene_destroy(scene);
 }
 
 TEST(s1_follows_equations_9_and_11_at_points) {
@@ -48,7 +47,7 @@ TEST(s1_follows_equations_9_and_11_at_points) {
         {0.8, 1.4, -1}, {0.3, 1.4, 1},   {0.3, 1.6, -1}, {-9.3, -8.1, -1}, {12.6, 9.0, 1},
     };
     surface_parts parts = grating_plane(KNURL_METHOD_S1, 1000.0, 500.0);
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     for (size_t i = 0; i < COUNT_OF(points); i++) {
         const double height = A * points[i].sign;
         knurl_tick_output out = tick_at(scene, 1e-3 * points[i].x, 1e-3 * points[i].y, -0.001);
@@ -57,7 +56,6 @@ TEST(s1_follows_equations_9_and_11_at_points) {
         out = tick_at(scene, 1e-3 * points[i].x, 1e-3 * points[i].y, -0.0003);  /* above a trough's floor */
         CHECK_VECTOR(out.force, 0.0, 0.0, points[i].sign > 0 ? 0.32 : 0.0, TOL);
     }
-    knurl_scene_destroy(scene);
 }
 
 TEST(cycles_tell_where_on_the_grating) {
@@ -81,7 +79,7 @@ TEST(cycles_tell_where_on_the_grating) {
 /* S2 at a constant speed is T3 at rate/(fs v), whatever the event: even, odd, mixed, above f_h/2. */
 static void compare_with_events(double rate, double fs, const double velocity[3], double frequency) {
     surface_parts parts = grating_plane(KNURL_METHOD_S2, fs, 0.5 * fs);
-    knurl_scene *scene = empty_scene(1);
+    SCOPED_SCENE *scene = empty_scene(1);
     knurl_hip_desc hip;
     knurl_workspace workspace;
     knurl_vibration_event event;
@@ -107,7 +105,6 @@ static void compare_with_events(double rate, double fs, const double velocity[3]
                     1e-9L * fs);
         assert_int_equal((out.flags & KNURL_TICK_ABOVE_NYQUIST) != 0, frequency > 0.5 * rate);
     }
-    knurl_scene_destroy(scene);
 }
 
 TEST(s2_at_constant_speed_plays_t3_events) {
@@ -122,7 +119,7 @@ TEST(s2_at_constant_speed_plays_t3_events) {
 
 TEST(s2_at_rest_is_the_plain_surface) {
     surface_parts parts = grating_plane(KNURL_METHOD_S2, 1000.0, 0.0);
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     const double position[3] = {0.0, 0.0, -0.002};
     static const double still[3][3] = {{0.0, 0.0, 0.0}, {0.00099, 0.0, 0.0}, {0.0, 0.2, 0.0}}; /* or along its ridges */
     for (int i = 0; i < 3; i++) {
@@ -130,12 +127,11 @@ TEST(s2_at_rest_is_the_plain_surface) {
         CHECK_VECTOR(out.force, 0.0, 0.0, K * 0.002, TOL);
         assert_int_equal(out.event, KNURL_NO_EVENT);
     }
-    knurl_scene_destroy(scene);
 }
 
 TEST(contact_begins_at_the_crest_without_a_jump) {
     surface_parts parts = grating_plane(KNURL_METHOD_S1, 1000.0, 0.0);
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     double last = 0.0;
     for (int k = 0; k <= 200; k++) { /* down onto a crest in steps of 0.01 mm, from 0.2 mm above it */
         const double z = 0.0007 - 1e-5 * k;
@@ -147,13 +143,12 @@ TEST(contact_begins_at_the_crest_without_a_jump) {
         }
         last = out.force[2];
     }
-    knurl_scene_destroy(scene);
 }
 
 /* S2's highest crest is that of the 400 Hz mix, (2 + 3 sqrt(1/2))/sqrt(13) A = 1.143 A. */
 TEST(contact_with_s2_begins_at_its_highest_crest) {
     surface_parts parts = grating_plane(KNURL_METHOD_S2, 1000.0, 0.0);
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     const double crest = (2.0 + 3.0 * sqrt(0.5)) / sqrt(13.0) * A;
     const double velocity[3] = {0.4, 0.0, 0.0};
     const double above[3] = {0.0, 0.0, 1.001 * crest};
@@ -163,13 +158,12 @@ TEST(contact_with_s2_begins_at_its_highest_crest) {
     out = tick_moving(scene, below, velocity);
     CHECK_CLOSE(out.height, crest, 1e-12L);
     CHECK_VECTOR(out.force, 0.0, 0.0, K * 1e-6, 1e-9L);
-    knurl_scene_destroy(scene);
 }
 
 TEST(damping_acts_along_the_normal_and_never_pulls) {
     surface_parts parts = grating_plane(KNURL_METHOD_S1, 1000.0, 0.0);
     parts.material.damping = 5.0;
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     const double pressed[3] = {0.0, 0.0, -0.001};      /* on a crest: 0.6 N */
     const double hovering[3] = {0.0003, 0.0, -0.0003}; /* over a trough: no contact with it */
     static const struct {
@@ -185,7 +179,6 @@ TEST(damping_acts_along_the_normal_and_never_pulls) {
         out = tick_moving(scene, hovering, cases[i].velocity);
         CHECK_VECTOR(out.force, 0.0, 0.0, 0.0, 0.0L);
     }
-    knurl_scene_destroy(scene);
 }
 
 /* The same stroke over a surface at the origin and over one elsewhere. */
@@ -194,7 +187,7 @@ static void compare_poses(surface_parts *parts, uint64_t seed) {
     knurl_scene *here = scene_of(parts);
     memcpy(parts->desc.position, there.position, sizeof there.position);
     memcpy(parts->desc.rotation, there.quaternion, sizeof there.quaternion);
-    knurl_scene *moved = scene_of(parts);
+    SCOPED_SCENE *moved = scene_of(parts);
     for (int k = 0; k < 200; k++) {
         const double hip[3] = {0.02 * sin(0.031 * k) + 1.3e-5, 0.02 * cos(0.047 * k), 0.002 * cos(0.05 * k)};
         const double velocity[3] = {0.2 * cos(0.031 * k), -0.1 * sin(0.047 * k), 0.05};
@@ -218,11 +211,10 @@ static void compare_poses(surface_parts *parts, uint64_t seed) {
         assert_int_equal(out.event, expected.event);
     }
     knurl_scene_destroy(here);
-    knurl_scene_destroy(moved);
 }
 
 TEST(surface_elsewhere_feels_the_same) {
-    shape box = shape_box((const double[3]){0.05, 0.05, 0.01}, 0);
+    SCOPED_SHAPE box = shape_box((const double[3]){0.05, 0.05, 0.01}, 0);
     for (uint64_t i = 1; i <= 8; i++) {
         surface_parts plane = grating_plane(i % 2 ? KNURL_METHOD_S1 : KNURL_METHOD_S2, 900.0, 400.0);
         plane.material.orientation = 0.3 * (double)i;
@@ -235,7 +227,6 @@ TEST(surface_elsewhere_feels_the_same) {
         mesh.desc.axis[1] = 0.6;
         compare_poses(&mesh, 10 + i);
     }
-    shape_free(&box);
 }
 
 TEST(velocity_is_told_in_the_surface_frame) {
@@ -250,30 +241,28 @@ TEST(velocity_is_told_in_the_surface_frame) {
             const double axis[3] = {7.0 * cos(angle), 7.0 * sin(angle), 3.0};
             memcpy(parts.desc.axis, axis, sizeof axis);
         }
-        knurl_scene *scene = scene_of(&parts);
+        SCOPED_SCENE *scene = scene_of(&parts);
         const knurl_tick_output out = tick_moving(scene, position, velocity);
         CHECK_CLOSE(out.surface_velocity[0], 0.3 * cos(angle) + 0.1 * sin(angle), 1e-12L);
         CHECK_CLOSE(out.surface_velocity[1], 0.1 * cos(angle) - 0.3 * sin(angle), 1e-12L);
-        knurl_scene_destroy(scene);
     }
 }
 
 TEST(velocity_from_behind_keeps_a_right_handed_frame) {
     surface_parts parts = surface_plane();
     parts.desc.double_sided = 1;
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     (void)tick_at(scene, 0.0, 0.0, -0.020);
     const knurl_tick_output out =
         tick_moving(scene, (const double[3]){0.0, 0.0, 0.001}, (const double[3]){0.3, 0.1, 0.0});
     CHECK_VECTOR(out.force, 0.0, 0.0, -K * 0.001, TOL);
     CHECK_CLOSE(out.surface_velocity[0], 0.3, 1e-12L);
     CHECK_CLOSE(out.surface_velocity[1], -0.1, 1e-12L); /* y = n x x */
-    knurl_scene_destroy(scene);
 }
 
 /* A sheet whose uvs are mirrored or not, with S1: what is felt is what is painted at (u su, v sv). */
 static void compare_with_paint(int mirror_u, int mirror_v, double orientation) {
-    shape sheet = shape_sheet(8, 8, (const double[2]){0.0625, 0.03125}, NULL);
+    SCOPED_SHAPE sheet = shape_sheet(8, 8, (const double[2]){0.0625, 0.03125}, NULL);
     for (uint32_t v = 0; v < sheet.vertex_count; v++) { /* u runs 0 to 5, v 0 to 2: su = 0.025, sv = 0.03125 */
         sheet.uvs[2 * v] = 5.0f * (mirror_u ? 1.0f - sheet.uvs[2 * v] : sheet.uvs[2 * v]);
         sheet.uvs[2 * v + 1] = 2.0f * (mirror_v ? 1.0f - sheet.uvs[2 * v + 1] : sheet.uvs[2 * v + 1]);
@@ -281,7 +270,7 @@ static void compare_with_paint(int mirror_u, int mirror_v, double orientation) {
     surface_parts parts = surface_mesh(&sheet);
     set_grating(&parts, KNURL_METHOD_S1, 310.0, 170.0, A);
     parts.material.orientation = orientation;
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     uint64_t seed = 9;
     for (int k = 0; k < 3000; k++) {
         const double x = random_between(&seed, -0.06, 0.06);
@@ -298,8 +287,6 @@ static void compare_with_paint(int mirror_u, int mirror_v, double orientation) {
             CHECK_CLOSE(out.height, wave > 0.0 ? A : -A, 1e-15L);
         }
     }
-    knurl_scene_destroy(scene);
-    shape_free(&sheet);
 }
 
 TEST(s1_by_uvs_is_felt_where_it_is_painted) {
@@ -311,13 +298,13 @@ TEST(s1_by_uvs_is_felt_where_it_is_painted) {
 
 /* Where u runs twice as fast, painted stripes are half as wide, and so are those that are felt. */
 TEST(s1_by_uvs_stretches_with_them) {
-    shape sheet = shape_sheet(2, 1, (const double[2]){0.05, 0.05}, NULL);
+    SCOPED_SHAPE sheet = shape_sheet(2, 1, (const double[2]){0.05, 0.05}, NULL);
     for (uint32_t v = 0; v < 6; v++) {
         sheet.uvs[2 * v] = v % 3 == 0 ? 0.0f : v % 3 == 1 ? 1.0f : 3.0f;
     }
     surface_parts parts = surface_mesh(&sheet);
     set_grating(&parts, KNURL_METHOD_S1, 300.0, 0.0, A);
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     for (int k = 0; k < 1000; k++) {
         const double x = -0.0499 + 9.97e-5 * k;
         const double u = x < 0.0 ? (x + 0.05) / 0.05 : 1.0 + x / 0.025;
@@ -326,8 +313,6 @@ TEST(s1_by_uvs_stretches_with_them) {
             CHECK_CLOSE(tick_at(scene, x, 0.01, -0.001).height, wave > 0.0 ? A : -A, 1e-15L);
         }
     }
-    knurl_scene_destroy(scene);
-    shape_free(&sheet);
 }
 
 /* Touched from behind it is the same surface, turned over about its x. */
@@ -339,7 +324,7 @@ TEST(grating_from_behind_is_that_of_the_surface_turned_over) {
     parts.desc.double_sided = 0;
     parts.desc.rotation[0] = 1.0;
     parts.desc.rotation[3] = 0.0;
-    knurl_scene *over = scene_of(&parts);
+    SCOPED_SCENE *over = scene_of(&parts);
     uint64_t seed = 3;
     (void)tick_at(behind, 0.0, 0.0, -0.020);
     (void)tick_at(over, 0.0, 0.0, -0.020);
@@ -354,13 +339,12 @@ TEST(grating_from_behind_is_that_of_the_surface_turned_over) {
         CHECK_CLOSE(out.surface_velocity[1], expected.surface_velocity[1], 1e-12L);
     }
     knurl_scene_destroy(behind);
-    knurl_scene_destroy(over);
 }
 
 /* TEXCOORD_0 would say +x; TANGENT says 30 degrees from it, leaning out of the surface, and not of unit length. */
 TEST(tangents_go_before_uvs) {
     float tangents[9 * 4];
-    shape sheet = shape_sheet(2, 2, (const double[2]){0.05, 0.05}, NULL);
+    SCOPED_SHAPE sheet = shape_sheet(2, 2, (const double[2]){0.05, 0.05}, NULL);
     for (int v = 0; v < 9; v++) {
         tangents[4 * v] = (float)(2.0 * cos(PI / 6.0));
         tangents[4 * v + 1] = (float)(2.0 * sin(PI / 6.0));
@@ -369,11 +353,9 @@ TEST(tangents_go_before_uvs) {
     }
     surface_parts parts = surface_mesh(&sheet);
     parts.mesh.tangents = tangents;
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     const knurl_tick_output out =
         tick_moving(scene, (const double[3]){0.01, 0.02, -0.001}, (const double[3]){0.3, 0.1, 0.0});
     CHECK_CLOSE(out.surface_velocity[0], 0.3 * cos(PI / 6.0) + 0.1 * sin(PI / 6.0), 1e-7L);
     CHECK_CLOSE(out.surface_velocity[1], 0.1 * cos(PI / 6.0) - 0.3 * sin(PI / 6.0), 1e-7L);
-    knurl_scene_destroy(scene);
-    shape_free(&sheet);
 }

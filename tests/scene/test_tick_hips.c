@@ -37,7 +37,7 @@ static knurl_scene *scene_of_small_device(surface_parts *parts, double resolutio
 TEST(workspace_turns_and_scales_what_a_device_feels) {
     surface_parts parts = surface_plane();
     parts.desc.position[0] = 0.5;
-    knurl_scene *scene = scene_of_small_device(&parts, 0.0);
+    SCOPED_SCENE *scene = scene_of_small_device(&parts, 0.0);
     (void)tick_at(scene, 0.0, 0.001, 0.0);
     for (int k = 1; k <= 10; k++) { /* pressed down the scene's z, the device's y: a wall of K x scale */
         const knurl_tick_output out = tick_at(scene, 0.0002, -1e-5 * k, 0.0001);
@@ -46,7 +46,6 @@ TEST(workspace_turns_and_scales_what_a_device_feels) {
         CHECK_VECTOR(out.device_force, 0.0, K * 10.0 * 1e-5 * k, 0.0, TOL);
         CHECK_CLOSE(out.depth, 1e-4 * k, 1e-15L);
     }
-    knurl_scene_destroy(scene);
 }
 
 TEST(workspace_scales_velocities_given_and_estimated) {
@@ -54,7 +53,7 @@ TEST(workspace_scales_velocities_given_and_estimated) {
     surface_parts parts = surface_plane();
     parts.desc.position[0] = 0.5;
     for (size_t i = 0; i < COUNT_OF(resolutions); i++) {
-        knurl_scene *scene = scene_of_small_device(&parts, resolutions[i]);
+        SCOPED_SCENE *scene = scene_of_small_device(&parts, resolutions[i]);
         knurl_tick_output out;
         for (int k = 0; k < 20; k++) { /* 0.01, -0.02 and 0.03 m/s of the device */
             out = tick_at(scene, 1e-5 * k, -0.0001 - 2e-5 * k, 3e-5 * k);
@@ -64,13 +63,12 @@ TEST(workspace_scales_velocities_given_and_estimated) {
         CHECK_CLOSE(out.surface_velocity[1], 0.1, 1e-9L);
         out = tick_moving(scene, (const double[3]){0.0, -0.0001, 0.0}, (const double[3]){0.01, -0.02, 0.03});
         CHECK_VECTOR(out.hip_velocity, 0.3, 0.1, -0.2, 1e-15L);
-        knurl_scene_destroy(scene);
     }
 }
 
 TEST(lift_off_ends_force_and_event_at_once) {
     surface_parts parts = s2_plane();
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     const double velocity[3] = {0.1, 0.0, 0.0}; /* 10 ticks a cycle: 5 up, 5 down */
     const double pressed[3] = {0.0, 0.0, -0.002};
     const double lifted[3] = {0.0, 0.0, 0.001};
@@ -92,12 +90,11 @@ TEST(lift_off_ends_force_and_event_at_once) {
     assert_int_equal(knurl_scene_get_tick(scene, 0, NULL, &counts), KNURL_OK);
     assert_true(counts.ticks == 42 && counts.contact_ticks == 39 && counts.events == 6);
     CHECK_CLOSE(counts.force_max, K * 0.0025, TOL);
-    knurl_scene_destroy(scene);
 }
 
 TEST(force_limit_shortens_and_keeps_the_direction) {
     surface_parts parts = surface_plane();
-    knurl_scene *scene = empty_scene(1); /* max_force left open: 3.3 N */
+    SCOPED_SCENE *scene = empty_scene(1); /* max_force left open: 3.3 N */
     knurl_hip_counts counts;
     knurl_hip_desc hip;
     knurl_hip_desc_init(&hip, sizeof hip);
@@ -120,13 +117,12 @@ TEST(force_limit_shortens_and_keeps_the_direction) {
     assert_int_equal(knurl_scene_get_tick(scene, 0, NULL, &counts), KNURL_OK);
     assert_true(counts.force_limit_ticks == 2);
     CHECK_CLOSE(counts.force_max, 3.3, TOL);
-    knurl_scene_destroy(scene);
 }
 
 TEST(numbers_that_are_not_finite_zero_the_force_and_are_survived) {
     static const double wrong[] = {(double)NAN, (double)INFINITY, (double)-INFINITY};
     surface_parts parts = s2_plane();
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     const double pressed[3] = {0.0, 0.0, -0.002};
     const double velocity[3] = {0.1, 0.0, 0.0};
     knurl_hip_counts counts;
@@ -149,7 +145,6 @@ TEST(numbers_that_are_not_finite_zero_the_force_and_are_survived) {
     }
     assert_int_equal(knurl_scene_get_tick(scene, 0, NULL, &counts), KNURL_OK);
     assert_true(counts.non_finite_ticks == 18 && counts.ticks == 18 * 5);
-    knurl_scene_destroy(scene);
 }
 
 TEST(velocity_starts_anew_after_numbers_that_are_not_finite) {
@@ -157,7 +152,7 @@ TEST(velocity_starts_anew_after_numbers_that_are_not_finite) {
     surface_parts parts = surface_plane();
     parts.desc.position[0] = 0.5;
     for (size_t i = 0; i < COUNT_OF(resolutions); i++) {
-        knurl_scene *scene = scene_of_small_device(&parts, resolutions[i]);
+        SCOPED_SCENE *scene = scene_of_small_device(&parts, resolutions[i]);
         for (int k = 0; k < 20; k++) {
             (void)tick_at(scene, 1e-5 * k, 0.0, 0.0);
         }
@@ -167,25 +162,23 @@ TEST(velocity_starts_anew_after_numbers_that_are_not_finite) {
         out = tick_at(scene, 0.00101, 0.0, 0.0);
         /* FOAW's backlash takes half a count, 0.5 um of the device, of the first move */
         CHECK_VECTOR(out.hip_velocity, 0.0, resolutions[i] > 0.0 ? 0.095 : 0.1, 0.0, 1e-9L);
-        knurl_scene_destroy(scene);
     }
 }
 
 TEST(velocity_that_is_not_used_need_not_be_finite) {
     surface_parts parts = surface_plane();
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     const knurl_tick_input input = {{0.0, 0.0, -0.001}, {(double)NAN, (double)INFINITY, 0.0}, 0, 0, 0.0, 0, {0}};
     knurl_tick_output out;
     assert_int_equal(knurl_scene_tick(scene, 0, &input, &out), KNURL_OK);
     CHECK_VECTOR(out.force, 0.0, 0.0, K * 0.001, TOL);
     CHECK_VECTOR(out.hip_velocity, 0.0, 0.0, 0.0, 0.0L);
-    knurl_scene_destroy(scene);
 }
 
 TEST(numbers_that_overflow_give_no_force) {
     surface_parts parts = surface_plane();
     parts.material.stiffness = 1e308;
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     (void)tick_at(scene, 0.0, 0.0, 1.0);
     const knurl_tick_output out = tick_at(scene, 0.0, 0.0, -100.0);
     CHECK_VECTOR(out.device_force, 0.0, 0.0, 0.0, 0.0L);
@@ -195,12 +188,11 @@ TEST(numbers_that_overflow_give_no_force) {
         const knurl_tick_output far_out = tick_moving(scene, huge, huge);
         CHECK_VECTOR(far_out.device_force, 0.0, 0.0, 0.0, 0.0L);
     }
-    knurl_scene_destroy(scene);
 }
 
 TEST(forces_of_several_surfaces_add_and_the_deepest_is_told) {
     surface_parts parts = surface_plane();
-    knurl_scene *scene = empty_scene(1);
+    SCOPED_SCENE *scene = empty_scene(1);
     const knurl_surface_id floor_id = add_surface(scene, &parts);
     parts.desc.normal[1] = -1.0;
     parts.material.stiffness = 100.0;
@@ -218,7 +210,6 @@ TEST(forces_of_several_surfaces_add_and_the_deepest_is_told) {
         assert_true(out.surface == (in_floor > in_wall ? floor_id : wall_id));
         CHECK_CLOSE(out.normal[2], in_floor > in_wall ? 1.0 : 0.0, 1e-12L);
     }
-    knurl_scene_destroy(scene);
 }
 
 /* With crests that reach 1 mm, a HIP above them all is in contact with each. */
@@ -238,36 +229,34 @@ static knurl_scene *stack_of_planes(int count, int double_sided, double amplitud
 
 TEST(more_surfaces_than_slots_are_flagged) {
     for (int count = 1; count <= 6; count++) {
-        knurl_scene *scene = stack_of_planes(count, 0, 0.001);
+        SCOPED_SCENE *scene = stack_of_planes(count, 0, 0.001);
         (void)tick_at(scene, 0.0, 0.0, 0.003);
         const knurl_tick_output out = tick_at(scene, 0.0, 0.0, 0.0001);
         const int touched = count < KNURL_CONTACTS_MAX ? count : KNURL_CONTACTS_MAX;
         assert_int_equal(out.contacts, touched);
         assert_int_equal((out.flags & KNURL_TICK_CONTACTS_FULL) != 0, count > KNURL_CONTACTS_MAX);
         assert_int_equal(tick_at(scene, 0.0, 0.0, 0.003).flags, 0);
-        knurl_scene_destroy(scene);
     }
 }
 
 /* What a HIP has been outside of stays outside: below the topmost plane it meets no other. */
 TEST(of_planes_on_top_of_each_other_the_topmost_holds) {
     for (int count = 1; count <= 6; count++) {
-        knurl_scene *scene = stack_of_planes(count, 0, 0.0);
+        SCOPED_SCENE *scene = stack_of_planes(count, 0, 0.0);
         (void)tick_at(scene, 0.0, 0.0, 0.001);
         const knurl_tick_output out = tick_at(scene, 0.0, 0.0, -0.002);
         assert_int_equal(out.contacts, 1);
         CHECK_CLOSE(out.depth, 0.002, 1e-15L);
         assert_true(out.surface == knurl_scene_get_surface(scene, (uint32_t)count - 1));
-        knurl_scene_destroy(scene);
     }
 }
 
 /* A fifth surface whose bounds hold the HIP, but which it does not touch: the inside of a box. */
 TEST(surface_that_is_only_near_is_not_one_too_many) {
-    shape room = shape_box((const double[3]){0.1, 0.1, 0.1}, 1);
+    SCOPED_SHAPE room = shape_box((const double[3]){0.1, 0.1, 0.1}, 1);
     surface_parts parts = surface_mesh(&room);
     surface_parts plane = surface_plane();
-    knurl_scene *scene = empty_scene(1);
+    SCOPED_SCENE *scene = empty_scene(1);
     parts.desc.axis[0] = 1.0;
     set_grating(&plane, KNURL_METHOD_S1, 100.0, 0.0, 0.001);
     for (int i = 0; i < 4; i++) {
@@ -280,13 +269,11 @@ TEST(surface_that_is_only_near_is_not_one_too_many) {
     const knurl_tick_output out = tick_at(scene, 0.0, 0.0, 0.0005);
     assert_int_equal(out.contacts, 4);
     assert_int_equal(out.flags, KNURL_TICK_CONTACT);
-    knurl_scene_destroy(scene);
-    shape_free(&room);
 }
 
 TEST(surfaces_left_in_the_same_tick_are_all_left) {
     for (int count = 1; count <= KNURL_CONTACTS_MAX; count++) {
-        knurl_scene *scene = stack_of_planes(count, 1, 0.001);
+        SCOPED_SCENE *scene = stack_of_planes(count, 1, 0.001);
         (void)tick_at(scene, 0.0, 0.0, 0.003);
         assert_int_equal(tick_at(scene, 0.0, 0.0, 0.0005).contacts, count);
         (void)tick_at(scene, 0.0, 0.0, -0.001);
@@ -295,7 +282,6 @@ TEST(surfaces_left_in_the_same_tick_are_all_left) {
             assert_int_equal(out.contacts, 0);
             CHECK_VECTOR(out.force, 0.0, 0.0, 0.0, 0.0L);
         }
-        knurl_scene_destroy(scene);
     }
 }
 
@@ -330,7 +316,7 @@ TEST(a_batch_is_its_ticks_one_by_one) {
     static knurl_tick_output outputs[TICKS];
     surface_parts parts = s2_plane();
     knurl_scene *single = scene_of(&parts);
-    knurl_scene *batched = scene_of(&parts);
+    SCOPED_SCENE *batched = scene_of(&parts);
     for (int k = 0; k < TICKS; k++) {
         inputs[k].position[0] = 0.03 * sin(0.023 * k);
         inputs[k].position[2] = 0.003 * cos(0.016 * k);
@@ -348,12 +334,11 @@ TEST(a_batch_is_its_ticks_one_by_one) {
     assert_true(outputs[2].tick == TICKS + 1); /* the one in the middle was none */
     assert_int_equal(knurl_scene_tick_batch(batched, 0, inputs, 0, outputs), KNURL_OK);
     knurl_scene_destroy(single);
-    knurl_scene_destroy(batched);
 }
 
 TEST(configuring_a_hip_forgets_what_it_did) {
     surface_parts parts = s2_plane();
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     knurl_hip_counts counts;
     knurl_tick_output out;
     (void)tick_at(scene, 0.0, 0.0, 0.001);
@@ -367,7 +352,6 @@ TEST(configuring_a_hip_forgets_what_it_did) {
     out = tick_at(scene, 0.0, 0.0, -0.001);
     assert_true(out.tick == 0 && out.contacts == 1);
     CHECK_VECTOR(out.hip_velocity, 0.0, 0.0, 0.0, 0.0L);
-    knurl_scene_destroy(scene);
 }
 
 static void check_refused_tick(knurl_scene *scene, uint32_t hip, knurl_result expected) {
@@ -386,7 +370,7 @@ static void check_refused_tick(knurl_scene *scene, uint32_t hip, knurl_result ex
 
 TEST(ticks_that_cannot_be_have_a_zero_output) {
     surface_parts parts = surface_plane();
-    knurl_scene *scene = empty_scene(2);
+    SCOPED_SCENE *scene = empty_scene(2);
     knurl_tick_output out;
     (void)add_surface(scene, &parts);
     check_refused_tick(scene, 0, KNURL_ERROR_STATE);
@@ -397,12 +381,11 @@ TEST(ticks_that_cannot_be_have_a_zero_output) {
     CHECK_REFUSED(knurl_scene_get_tick(scene, 2, &out, NULL), KNURL_ERROR_ARGUMENT, parts);
     assert_int_equal(knurl_scene_get_tick(scene, 1, &out, NULL), KNURL_OK);
     assert_true(out.tick == 0 && out.flags == 0);
-    knurl_scene_destroy(scene);
 }
 
 TEST(snapshot_is_the_latest_tick) {
     surface_parts parts = s2_plane();
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     knurl_hip_counts counts;
     uint64_t contact_ticks = 0;
     for (int k = 0; k < 1000; k++) {
@@ -413,7 +396,6 @@ TEST(snapshot_is_the_latest_tick) {
         contact_ticks += (out.flags & KNURL_TICK_CONTACT) != 0;
         assert_true(counts.ticks == (uint64_t)k + 1 && counts.contact_ticks == contact_ticks);
     }
-    knurl_scene_destroy(scene);
 }
 
 typedef struct reader {
@@ -444,7 +426,7 @@ static void *read_snapshots(void *argument) {
 TEST(snapshots_read_by_another_thread_are_whole) {
     surface_parts parts = surface_plane();
     set_grating(&parts, KNURL_METHOD_S1, 1000.0, 0.0, A);
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     reader r = {scene, 0, 0, 0};
     pthread_t thread;
     assert_int_equal(pthread_create(&thread, NULL, read_snapshots, &r), 0);
@@ -457,5 +439,4 @@ TEST(snapshots_read_by_another_thread_are_whole) {
     assert_int_equal(pthread_join(thread, NULL), 0);
     assert_int_equal(r.torn, 0);
     assert_true(r.seen > 0);
-    knurl_scene_destroy(scene);
 }

@@ -72,10 +72,10 @@ static uint64_t count_limits(const knurl_scene *scene) {
 /* All triangles are as near to its middle: 20,480 of them, whose crests reach as far as it is wide. */
 TEST(crests_that_reach_through_a_mesh_meet_the_limit_which_is_told_and_counted) {
     const uint32_t limits[2] = {KNURL_VISITS_MAX, UINT32_MAX};
-    shape s = shape_sphere(0.01, 5);
+    SCOPED_SHAPE s = shape_sphere(0.01, 5);
     surface_parts parts = surface_shape(&s, 0.02);
     for (int i = 0; i < 2; i++) {
-        knurl_scene *scene = scene_within(&parts, limits[i]);
+        SCOPED_SCENE *scene = scene_within(&parts, limits[i]);
         uint64_t met = 0;
         for (int k = 0; k < 50; k++) {
             const knurl_tick_output out = tick_at(scene, 1e-5 * k, 0.0, 0.0);
@@ -84,19 +84,17 @@ TEST(crests_that_reach_through_a_mesh_meet_the_limit_which_is_told_and_counted) 
         }
         assert_int_equal(met > 0, i == 0);
         assert_int_equal(count_limits(scene), met);
-        knurl_scene_destroy(scene);
     }
-    shape_free(&s);
 }
 
 /* From a meridian over the pole to the next; held in every tick, by a force that is no more than the depth's. */
 TEST(a_hip_that_is_held_is_held_on_when_the_visits_are_used_up) {
-    shape s = globe(96, 48);
+    SCOPED_SHAPE s = globe(96, 48);
     surface_parts parts = surface_shape(&s, 0.0);
     static const uint32_t limits[2] = {100, 1000}; /* round the pole, 96 triangles: up to five visits each, and more */
     for (int i = 0; i < 2; i++) {
         const uint32_t limit = limits[i];
-        knurl_scene *scene = scene_within(&parts, limit);
+        SCOPED_SCENE *scene = scene_within(&parts, limit);
         for (int k = 0; k <= 40; k++) { /* in from outside, away from the pole */
             (void)tick_at(scene, (RADIUS + 0.001 - 5e-5 * k) * sin(0.3), 1e-4, (RADIUS + 0.001 - 5e-5 * k) * cos(0.3));
         }
@@ -109,16 +107,14 @@ TEST(a_hip_that_is_held_is_held_on_when_the_visits_are_used_up) {
             }
         }
         assert_int_equal(count_limits(scene) > 0, limit == 100);
-        knurl_scene_destroy(scene);
     }
-    shape_free(&s);
 }
 
 /* Exactly onto a pole, where the way of the proxy over 96 triangles takes more than a tick has. */
 TEST(a_contact_begins_although_the_visits_are_used_up) {
-    shape s = globe(96, 48);
+    SCOPED_SHAPE s = globe(96, 48);
     surface_parts parts = surface_shape(&s, 0.0);
-    knurl_scene *scene = scene_within(&parts, KNURL_VISITS_MAX);
+    SCOPED_SCENE *scene = scene_within(&parts, KNURL_VISITS_MAX);
     for (int k = 0; k < 20; k++) {
         const double z = RADIUS + 0.0002 - 5.5e-5 * k;
         const knurl_tick_output out = tick_at(scene, 0.0, 5.5e-5, z);
@@ -126,8 +122,6 @@ TEST(a_contact_begins_although_the_visits_are_used_up) {
             fail_msg("lost at z = %g", z);
         }
     }
-    knurl_scene_destroy(scene);
-    shape_free(&s);
 }
 
 /* Presses a HIP into a sphere from 2 mm outside to 1 mm inside, `step` (m) a tick, at an angle (rad) from the pole, and
@@ -151,20 +145,18 @@ TEST(a_pole_of_any_number_of_triangles_holds_a_hip_that_is_pressed_onto_it) {
     static const uint32_t fans[3] = {256, 512, 1024};
     static const double steps[3] = {5.5e-5, 2.5e-4, 1e-3};
     for (int i = 0; i < 9; i++) {
-        shape s = globe(fans[i / 3], 16);
+        SCOPED_SHAPE s = globe(fans[i / 3], 16);
         surface_parts parts = surface_shape(&s, 0.0001);
-        knurl_scene *scene = scene_within(&parts, KNURL_VISITS_MAX);
+        SCOPED_SCENE *scene = scene_within(&parts, KNURL_VISITS_MAX);
         check_press(scene, 0.0, steps[i % 3], 0.001);
-        knurl_scene_destroy(scene);
-        shape_free(&s);
     }
 }
 
 /* 32 spheres of 20,480 triangles each, 10 um beside one another. */
 TEST(a_crowd_of_meshes_holds_a_hip_that_is_pressed_into_it) {
-    shape s = shape_sphere(RADIUS, 5);
+    SCOPED_SHAPE s = shape_sphere(RADIUS, 5);
     surface_parts parts = surface_shape(&s, 0.0);
-    knurl_scene *scene = empty_scene(1);
+    SCOPED_SCENE *scene = empty_scene(1);
     for (int i = 0; i < 32; i++) {
         parts.desc.position[0] = 1e-5 * i;
         (void)add_surface(scene, &parts);
@@ -172,15 +164,13 @@ TEST(a_crowd_of_meshes_holds_a_hip_that_is_pressed_into_it) {
     configure_plainly(scene, 0);
     assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
     check_press(scene, 0.29, 1e-4, 32 * 0.002);
-    knurl_scene_destroy(scene);
-    shape_free(&s);
 }
 
 /* The crests of six planes are in reach, of which a tick has room for four; the top one, which comes last, is pressed.
  */
 TEST(a_surface_that_holds_has_room_before_crests) {
     surface_parts parts = surface_plane();
-    knurl_scene *scene = empty_scene(1);
+    SCOPED_SCENE *scene = empty_scene(1);
     set_grating(&parts, KNURL_METHOD_S1, 100.0, 0.0, 0.0005);
     for (int i = 0; i < 6; i++) {
         parts.desc.position[2] = -5e-5 * (5 - i);
@@ -193,7 +183,6 @@ TEST(a_surface_that_holds_has_room_before_crests) {
     const knurl_tick_output out = tick_at(scene, 0.001, 0.001, -0.001);
     CHECK_CLOSE(out.depth, 0.001, 1e-6);
     assert_true((out.flags & KNURL_TICK_CONTACTS_FULL) != 0);
-    knurl_scene_destroy(scene);
 }
 
 /* Through a plane in a tick of 1 mm, for as many visits. What else the tick looks at first, another plane 1.5 mm beside
@@ -230,13 +219,12 @@ static int check_only_plane_is_touched(const shape *below, uint32_t max_visits) 
 }
 
 TEST(what_is_looked_at_twice_for_want_of_visits_is_not_taken_for_something_else) {
-    shape s = shape_sphere(RADIUS, 3);
+    SCOPED_SHAPE s = shape_sphere(RADIUS, 3);
     int met = 0;
     for (uint32_t limit = 1; limit <= 40; limit++) {
         met += check_only_plane_is_touched(&s, limit);
     }
     assert_true(met > 0);
-    shape_free(&s);
 }
 
 static uint32_t exceeded_by(const shape *s, double amplitude) {
@@ -252,7 +240,7 @@ static uint32_t exceeded_by(const shape *s, double amplitude) {
 TEST(the_check_at_load_warns_of_meshes_that_meet_the_limit) {
     shape ball = shape_sphere(0.01, 5);
     shape earth = globe(96, 48);
-    shape heap = heap_of_triangles(2000);
+    SCOPED_SHAPE heap = heap_of_triangles(2000);
     assert_int_equal(exceeded_by(&ball, 0.02), KNURL_LIMIT_VISITS);
     assert_int_equal(exceeded_by(&heap, 0.0), KNURL_LIMIT_VISITS);
     assert_int_equal(exceeded_by(&ball, 0.0005), 0);
@@ -260,7 +248,6 @@ TEST(the_check_at_load_warns_of_meshes_that_meet_the_limit) {
     assert_int_equal(exceeded_by(&earth, 0.0005), 0);
     shape_free(&ball);
     shape_free(&earth);
-    shape_free(&heap);
 }
 
 /* Spheres one 10 um beside the other: the first one's check. */

@@ -33,7 +33,7 @@ static void move(knurl_scene *scene, const knurl_workspace *to, double seconds) 
 }
 
 TEST(the_hip_goes_with_its_workspace_at_its_speed) {
-    knurl_scene *scene = wall();
+    SCOPED_SCENE *scene = wall();
     const knurl_workspace to = at(0.01, 0.0, 0.02);
     (void)tick_at(scene, 0.001, 0.0, 0.03);
     move(scene, &to, 0.1); /* 0.1 m/s along x, 0.2 m/s along z */
@@ -45,13 +45,12 @@ TEST(the_hip_goes_with_its_workspace_at_its_speed) {
     const knurl_tick_output out = tick_at(scene, 0.001, 0.0, 0.03);
     CHECK_VECTOR(out.hip, 0.011, 0.0, 0.05, 1e-12);
     CHECK_VECTOR(out.hip_velocity, 0.0, 0.0, 0.0, 1e-12);
-    knurl_scene_destroy(scene);
 }
 
 /* A quarter turn about z in 0.1 s: the HIP, 10 mm off the origin, goes round at 0.01 m * pi/2 / 0.1 s. */
 TEST(a_workspace_that_turns_takes_positions_and_forces_along) {
     static const double quarter[9] = {0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0};
-    knurl_scene *scene = wall();
+    SCOPED_SCENE *scene = wall();
     knurl_workspace to = at(0.0, 0.0, 0.0);
     memcpy(to.rotation, quarter, sizeof quarter);
     (void)tick_at(scene, 0.01, 0.0, 0.01);
@@ -67,14 +66,13 @@ TEST(a_workspace_that_turns_takes_positions_and_forces_along) {
         (void)tick_at(scene, 0.01, 0.0, 0.01);
     }
     CHECK_VECTOR(tick_at(scene, 0.01, 0.0, 0.01).hip, 0.0, 0.01, 0.01, 1e-12);
-    knurl_scene_destroy(scene);
 }
 
 /* Down onto the wall: held at its surface, 400 N/m times the depth. The device's own axes are turned upside down, so
  * that its force has the other sign. */
 TEST(a_workspace_presses_its_hip_into_a_wall_like_a_hand) {
     static const double over[9] = {1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, -1.0};
-    knurl_scene *scene = wall();
+    SCOPED_SCENE *scene = wall();
     knurl_workspace start = at(0.0, 0.0, 0.01);
     memcpy(start.rotation, over, sizeof over);
     move(scene, &start, 0.0);
@@ -88,11 +86,10 @@ TEST(a_workspace_presses_its_hip_into_a_wall_like_a_hand) {
     const knurl_tick_output out = tick_at(scene, 0.0, 0.0, 0.0);
     CHECK_VECTOR(out.force, 0.0, 0.0, 1.6, 1e-9);
     CHECK_VECTOR(out.device_force, 0.0, 0.0, -1.6, 1e-9);
-    knurl_scene_destroy(scene);
 }
 
 TEST(a_workspace_that_jumps_touches_nothing_on_its_way) {
-    knurl_scene *scene = wall();
+    SCOPED_SCENE *scene = wall();
     const knurl_workspace to = at(0.0, 0.0, -0.05);
     (void)tick_at(scene, 0.0, 0.0, 0.02);
     move(scene, &to, 0.0);
@@ -101,25 +98,23 @@ TEST(a_workspace_that_jumps_touches_nothing_on_its_way) {
     assert_int_equal(out.contacts, 0);
     CHECK_VECTOR(out.force, 0.0, 0.0, 0.0, 0.0);
     CHECK_VECTOR(out.hip_velocity, 0.0, 0.0, 0.0, 1e-12);
-    knurl_scene_destroy(scene);
 }
 
 /* 1 mm ridges under a hand that stands still, in a workspace that passes at 100 mm/s: 100 ridges a second. */
 TEST(ridges_are_felt_at_the_workspaces_speed) {
     surface_parts parts = surface_plane();
     set_grating(&parts, KNURL_METHOD_S1, 1000.0, 0.0, 0.0002);
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     const knurl_workspace to = at(0.02, 0.0, 0.0);
     (void)tick_at(scene, 0.0, 0.0, -0.001);
     move(scene, &to, 0.2);
     for (int k = 0; k < 200; k++) {
         CHECK_CLOSE(tick_at(scene, 0.0, 0.0, -0.001).temporal_frequency, 100.0, 1e-6);
     }
-    knurl_scene_destroy(scene);
 }
 
 TEST(moves_in_a_row_go_on_from_where_the_workspace_is) {
-    knurl_scene *scene = wall();
+    SCOPED_SCENE *scene = wall();
     const knurl_workspace first = at(0.1, 0.0, 0.0);
     const knurl_workspace second = at(0.0, 0.0, 0.0);
     knurl_workspace told;
@@ -132,7 +127,6 @@ TEST(moves_in_a_row_go_on_from_where_the_workspace_is) {
     CHECK_CLOSE(tick_at(scene, 0.0, 0.0, 0.03).hip[0], 0.019, 1e-12);
     assert_int_equal(knurl_scene_get_workspace(scene, 0, &told), KNURL_OK);
     CHECK_VECTOR(told.origin, 0.0, 0.0, 0.0, 0.0);
-    knurl_scene_destroy(scene);
 }
 
 TEST(moves_that_are_none_are_refused_with_what_was_expected) {
@@ -155,7 +149,7 @@ TEST(moves_that_are_none_are_refused_with_what_was_expected) {
 
 /* Doubled in a second: the scale is 2^t, the velocity what the position changes by. */
 TEST(a_zoom_carries_the_hip_from_the_origin_at_its_speed) {
-    knurl_scene *scene = wall();
+    SCOPED_SCENE *scene = wall();
     const knurl_workspace to = zoomed(0.01, 2.0);
     const knurl_workspace start = at(0.0, 0.0, 0.01);
     move(scene, &start, 0.0);
@@ -171,12 +165,11 @@ TEST(a_zoom_carries_the_hip_from_the_origin_at_its_speed) {
     const knurl_tick_output out = tick_at(scene, 0.01, 0.02, 0.03);
     CHECK_VECTOR(out.hip, 0.02, 0.04, 0.07, 1e-12);
     CHECK_VECTOR(out.hip_velocity, 0.0, 0.0, 0.0, 0.0);
-    knurl_scene_destroy(scene);
 }
 
 /* As above, with 200 ticks without a position: the velocity after them is that of one tick. */
 TEST(a_zoom_that_goes_on_without_a_position_is_not_made_up_for_in_one_tick) {
-    knurl_scene *scene = wall();
+    SCOPED_SCENE *scene = wall();
     const knurl_workspace to = zoomed(0.0, 2.0);
     knurl_tick_input input;
     knurl_tick_output out;
@@ -192,11 +185,10 @@ TEST(a_zoom_that_goes_on_without_a_position_is_not_made_up_for_in_one_tick) {
     out = tick_at(scene, 0.01, 0.02, 0.03);
     CHECK_VECTOR(out.hip, 0.01 * scale, 0.02 * scale, 0.03 * scale, 1e-12);
     CHECK_VECTOR(out.hip_velocity, 0.01 * rate, 0.02 * rate, 0.03 * rate, 1e-9);
-    knurl_scene_destroy(scene);
 }
 
 TEST(a_zoom_takes_a_fifth_of_a_second_for_a_factor_of_e_at_least) {
-    knurl_scene *scene = wall();
+    SCOPED_SCENE *scene = wall();
     const knurl_workspace in = zoomed(0.0, exp(-2.0));
     (void)tick_at(scene, 0.03, 0.0, 0.03);
     move(scene, &in, 0.001);
@@ -204,12 +196,11 @@ TEST(a_zoom_takes_a_fifth_of_a_second_for_a_factor_of_e_at_least) {
         CHECK_CLOSE(tick_at(scene, 0.03, 0.0, 0.03).hip[0], 0.03 * exp(-0.005 * k), 1e-12);
     }
     CHECK_CLOSE(tick_at(scene, 0.03, 0.0, 0.03).hip[0], 0.03 * exp(-2.0), 1e-15);
-    knurl_scene_destroy(scene);
 }
 
 /* Engines move a workspace anew in every frame. */
 TEST(a_zoom_goes_on_while_the_workspace_is_moved_on) {
-    knurl_scene *scene = wall();
+    SCOPED_SCENE *scene = wall();
     const knurl_workspace first = zoomed(0.0, exp(1.0));
     knurl_workspace told;
     (void)tick_at(scene, 0.03, 0.0, 0.03);
@@ -221,24 +212,22 @@ TEST(a_zoom_goes_on_while_the_workspace_is_moved_on) {
     }
     assert_int_equal(knurl_scene_get_workspace(scene, 0, &told), KNURL_OK);
     CHECK_SAME(told.scale, exp(1.0));
-    knurl_scene_destroy(scene);
 }
 
 TEST(a_jump_ends_a_zoom) {
-    knurl_scene *scene = wall();
+    SCOPED_SCENE *scene = wall();
     const knurl_workspace to = zoomed(0.0, 2.0);
     (void)tick_at(scene, 0.03, 0.0, 0.03);
     move(scene, &to, 1.0);
     (void)tick_at(scene, 0.03, 0.0, 0.03);
     move(scene, &to, 0.0);
     CHECK_VECTOR(tick_at(scene, 0.03, 0.0, 0.03).hip, 0.06, 0.0, 0.06, 0.0);
-    knurl_scene_destroy(scene);
 }
 
 /* 11 mm below the origin, which is 10 mm above the wall: 1 mm deep, then 3.2 mm. On its way the HIP goes at 5/s times
  * 13.2 mm at most, and the force grows by 400 N/m times that. */
 TEST(a_zoom_presses_its_hip_into_a_wall_without_a_jump) {
-    knurl_scene *scene = wall();
+    SCOPED_SCENE *scene = wall();
     const knurl_workspace start = at(0.0, 0.0, 0.01);
     const knurl_workspace to = zoomed(0.01, 1.2);
     move(scene, &start, 0.0);
@@ -256,12 +245,11 @@ TEST(a_zoom_presses_its_hip_into_a_wall_without_a_jump) {
         force = out.force[2];
     }
     CHECK_CLOSE(force, 1.28, 1e-9);
-    knurl_scene_destroy(scene);
 }
 
 /* From 2 mm above the wall to 19.6 mm and 25 mm below it, farther than a first tick reaches. */
 TEST(a_zoom_that_jumps_touches_nothing) {
-    knurl_scene *scene = wall();
+    SCOPED_SCENE *scene = wall();
     const knurl_workspace start = at(0.0, 0.0, 0.02);
     move(scene, &start, 0.0);
     (void)tick_at(scene, 0.0, 0.0, -0.018);
@@ -273,7 +261,6 @@ TEST(a_zoom_that_jumps_touches_nothing) {
         CHECK_VECTOR(out.force, 0.0, 0.0, 0.0, 0.0);
         CHECK_VECTOR(out.hip_velocity, 0.0, 0.0, 0.0, 0.0);
     }
-    knurl_scene_destroy(scene);
 }
 
 /* Ridges on a wall that is beyond what the device can do, with all protections: the same bits at the same scale. */

@@ -25,9 +25,7 @@ static knurl_scene *make_scene(const stroke_case *c, const knurl_device *device,
     knurl_material_desc material;
     knurl_hip_desc hip;
     knurl_workspace workspace;
-    knurl_device_info info;
-    knurl_device_info_init(&info, sizeof info);
-    assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
+    const knurl_device_info info = device_info(device);
     knurl_plane_desc_init(&plane, sizeof plane);
     knurl_surface_desc_init(&desc, sizeof desc);
     knurl_material_desc_init(&material, sizeof material);

@@ -8,6 +8,7 @@
 
 #include <knurl/base.h>
 
+#include "support/handles.h"
 #include "support/suite.h"
 
 #define COUNT_OF(array) (sizeof(array) / sizeof((array)[0]))

@@ -114,4 +114,7 @@ static inline void process_free(process *p) {
     p->err = NULL;
 }
 
+/** One that is freed at the end of its block. */
+#define SCOPED_PROCESS __attribute__((cleanup(process_free))) process
+
 #endif

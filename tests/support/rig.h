@@ -149,9 +149,7 @@ static inline void rig_run(rig *r) {
 }
 
 static inline knurl_loop_stats rig_stats(const rig *r) {
-    knurl_loop_stats stats;
-    knurl_loop_stats_init(&stats, sizeof stats);
-    assert_int_equal(knurl_loop_get_stats(r->loop, &stats), KNURL_OK);
+    const knurl_loop_stats stats = loop_stats(r->loop);
     return stats;
 }
 

@@ -35,6 +35,9 @@ static inline void shape_free(shape *s) {
     memset(s, 0, sizeof *s);
 }
 
+/** One that is freed at the end of its block. */
+#define SCOPED_SHAPE __attribute__((cleanup(shape_free))) shape
+
 /** What a caller hands over. */
 static inline knurl_mesh_desc shape_desc(const shape *s) {
     knurl_mesh_desc desc;

@@ -97,23 +97,21 @@ static void check_case(const char *json, const char *name, double ticks) {
 
 /* Runs one case; `contact` is the share of its ticks that touch. */
 static void check_run(const char *name, const char *asked, double ticks, double contact) {
-    process p = RUN_TOOL("bench", "--json", "--ticks", asked, "--case", name);
+    SCOPED_PROCESS p = RUN_TOOL("bench", "--json", "--ticks", asked, "--case", name);
     check_done(&p);
     check_brackets(p.out);
     check_case(p.out, name, ticks);
     CHECK_SAME(json_number_of(p.out, "contact"), contact);
-    process_free(&p);
 }
 
 TEST(one_case_is_told_with_all_its_fields) {
-    process p = RUN_TOOL("bench", "--case", "plane", "--json", "--ticks", "2000");
+    SCOPED_PROCESS p = RUN_TOOL("bench", "--case", "plane", "--json", "--ticks", "2000");
     check_done(&p);
     check_brackets(p.out);
     check_case(p.out, "plane", 2000.0);
     assert_true(isfinite(json_number_of(p.out, "timer_ns")) && json_number_of(p.out, "timer_ns") >= 0.0);
     assert_non_null(strstr(p.out, "\"machine\": \""));
     assert_true(json_number_of(p.out, "bytes") > 0.0);
-    process_free(&p);
 }
 
 TEST(each_kind_of_case_runs) {
@@ -150,12 +148,11 @@ TEST(each_scene_is_touched_in_every_tick) {
 }
 
 TEST(a_mesh_tells_its_triangles_and_bytes) {
-    process p = RUN_TOOL("bench", "--json", "--ticks", "1", "--case", "mesh_10k");
+    SCOPED_PROCESS p = RUN_TOOL("bench", "--json", "--ticks", "1", "--case", "mesh_10k");
     check_done(&p);
     const double triangles = json_number_of(p.out, "triangles");
     CHECK_CLOSE(triangles, 10000.0, 100.0);
     assert_true(json_number_of(p.out, "bytes") > 12.0 * triangles); /* three corners of four bytes at the least */
-    process_free(&p);
 }
 
 TEST(batches_are_told_beside_single_ticks_and_edits_where_things_move) {
@@ -174,11 +171,10 @@ TEST(batches_are_told_beside_single_ticks_and_edits_where_things_move) {
 }
 
 TEST(the_table_has_a_line_a_case) {
-    process p = RUN_TOOL("bench", "--case", "plane", "--ticks", "100");
+    SCOPED_PROCESS p = RUN_TOOL("bench", "--case", "plane", "--ticks", "100");
     check_done(&p);
     assert_int_equal(lines_in(p.out), 3); /* the machine, the columns, the case */
     assert_non_null(strstr(p.out, "\nplane "));
-    process_free(&p);
 }
 
 TEST(an_unknown_case_is_refused_with_the_list) {
@@ -202,7 +198,7 @@ TEST(wrong_ticks_are_refused) {
 
 TEST(an_interrupt_ends_it_with_what_there_is) {
     const char *const arguments[] = {KNURL_TEST_TOOL, "bench", "--json", "--case", "paced_plane", NULL};
-    process p = process_start(arguments, NULL);
+    SCOPED_PROCESS p = process_start(arguments, NULL);
     const struct timespec while_it_runs = {1, 0}; /* of 5 s */
     (void)nanosleep(&while_it_runs, NULL);
     assert_int_equal(kill(p.pid, SIGINT), 0);
@@ -210,5 +206,4 @@ TEST(an_interrupt_ends_it_with_what_there_is) {
     assert_int_equal(p.exit_code, 1);
     check_brackets(p.out);
     assert_non_null(strstr(p.err, "interrupted in paced_plane"));
-    process_free(&p);
 }

@@ -34,8 +34,8 @@ static void check_signal(const char *method, const char *period, const double *v
     double expected[2 * 16];
     char ticks[16];
     (void)snprintf(ticks, sizeof ticks, "%d", (int)count);
-    process p = RUN_TOOL("signal", "--method", method, "--period-ms", period, "--amplitude", "1", "--rate", "1000",
-                         "--ticks", ticks);
+    SCOPED_PROCESS p = RUN_TOOL("signal", "--method", method, "--period-ms", period, "--amplitude", "1", "--rate",
+                                "1000", "--ticks", ticks);
     check_done(&p);
     assert_int_equal(lines_in(p.err), notes);
     for (size_t i = 0; i < count; i++) {
@@ -43,7 +43,6 @@ static void check_signal(const char *method, const char *period, const double *v
         expected[2 * i + 1] = values[i];
     }
     check_csv(p.out, "tick,value", expected, count, 2);
-    process_free(&p);
 }
 
 /* Eq. 7 with N = 3: sqrt(1/2) for two ticks and -sqrt(2) for one. */
@@ -73,8 +72,8 @@ TEST(signal_T2_at_3_ms_mixes_4_and_2) {
 }
 
 TEST(signal_works_in_ticks_at_any_rate) {
-    process p = RUN_TOOL("signal", "--method", "T3", "--period-ms", "1.25", "--amplitude", "2", "--rate", "2000",
-                         "--ticks", "6"); /* 2.5 ticks: the mix of Eq. 8, A = 2 */
+    SCOPED_PROCESS p = RUN_TOOL("signal", "--method", "T3", "--period-ms", "1.25", "--amplitude", "2", "--rate", "2000",
+                                "--ticks", "6"); /* 2.5 ticks: the mix of Eq. 8, A = 2 */
     const double e = 4.0 / sqrt(13.0);
     const double o = 6.0 / sqrt(13.0);
     const double up = o * sqrt(0.5);
@@ -82,18 +81,16 @@ TEST(signal_works_in_ticks_at_any_rate) {
     const double expected[] = {0, e + up, 1, -e + up, 2, e - down, 3, -e + up, 4, e + up, 5, -e - down};
     check_done(&p);
     check_csv(p.out, "tick,value", expected, 6, 2);
-    process_free(&p);
 }
 
 /* --- scan --- */
 
 static void check_scan(const char *method, const char *fs, const char *csv, const double *expected, size_t rows) {
     write_text(tool_path("motion.csv"), csv);
-    process p = RUN_TOOL("scan", "--method", method, "--fs", fs, "--amplitude", "0.001", "--rate", "1000", "--in",
-                         tool_path("motion.csv"));
+    SCOPED_PROCESS p = RUN_TOOL("scan", "--method", method, "--fs", fs, "--amplitude", "0.001", "--rate", "1000",
+                                "--in", tool_path("motion.csv"));
     check_done(&p);
     check_csv(p.out, "tick,height,fs,ft,event", expected, rows, 5);
-    process_free(&p);
 }
 
 /* 0.4 m/s over 1000 cycles/m: 400 Hz, 2.5 ticks a cycle. Six ticks of Eq. 8, then the next event. */
@@ -187,7 +184,7 @@ TEST(inspect_tells_each_surface_in_one_line_of_json) {
                                        "double_sided",
                                        "reversed_twins",
                                        "turned_triangles"};
-    process p = RUN_TOOL("inspect", write_plate("plate.gltf", TAG));
+    SCOPED_PROCESS p = RUN_TOOL("inspect", write_plate("plate.gltf", TAG));
     check_done(&p);
     assert_int_equal(p.err[0], '\0');
     assert_int_equal(lines_in(p.out), 1);
@@ -203,7 +200,6 @@ TEST(inspect_tells_each_surface_in_one_line_of_json) {
     CHECK_SAME(json_number_of(p.out, "mean"), 1.0L);
     assert_non_null(strstr(p.out, "\"method\": \"bandlimited\""));
     assert_non_null(strstr(p.out, "[1000, 0]"));
-    process_free(&p);
 }
 
 /* Two triangles that face up, 100 x 100 mm; and each of them turned round. */
@@ -257,7 +253,7 @@ static int is_value(const char *json, const char *name, const char *key, const c
 
 TEST(inspect_tells_the_model_and_why) {
     process reduced = RUN_TOOL("inspect", write_plate("plate.gltf", TAG));
-    process full = RUN_TOOL("inspect", tool_path("plate.gltf"), "--full-model");
+    SCOPED_PROCESS full = RUN_TOOL("inspect", tool_path("plate.gltf"), "--full-model");
     check_done(&reduced);
     check_done(&full);
     assert_true(is_value(reduced.out, "plate", "model", "\"plane\""));
@@ -266,7 +262,6 @@ TEST(inspect_tells_the_model_and_why) {
     assert_true(json_number_of(reduced.out, "model_error") <= 1e-9);
     CHECK_SAME(json_number_of(full.out, "model_error"), 0.0L); /* the mesh itself */
     process_free(&reduced);
-    process_free(&full);
 }
 
 /* One corner of four a distance d above the plane of the others: no plane comes nearer to all of them than d/4, and
@@ -276,22 +271,20 @@ TEST(inspect_tells_how_far_a_model_is_off) {
     float bent[6][3];
     memcpy(bent, sheet, sizeof bent);
     bent[5][1] = (float)d;
-    process p = RUN_TOOL("inspect", write_sheets((const float (*)[3])bent, 6, (const double[1]){0.0}, 1));
+    SCOPED_PROCESS p = RUN_TOOL("inspect", write_sheets((const float (*)[3])bent, 6, (const double[1]){0.0}, 1));
     check_done(&p);
     assert_true(is_value(p.out, "n0", "model", "\"plane"));
     assert_true(json_number_of(p.out, "model_error") > 0.999 * d / 4.0);
     assert_true(json_number_of(p.out, "model_error") < 1.001 * d);
-    process_free(&p);
 }
 
 TEST(inspect_counts_triangles_in_reversed_pairs_and_calls_them_double_sided) {
     for (int twins = 0; twins < 2; twins++) {
-        process p = RUN_TOOL("inspect", write_sheets(sheet, twins ? 12 : 6, (const double[1]){0.0}, 1));
+        SCOPED_PROCESS p = RUN_TOOL("inspect", write_sheets(sheet, twins ? 12 : 6, (const double[1]){0.0}, 1));
         check_done(&p);
         CHECK_SAME(json_number_of(p.out, "triangles"), 2.0L);
         CHECK_SAME(json_number_of(p.out, "reversed_twins"), twins ? 2.0L : 0.0L);
         assert_true(is_value(p.out, "n0", "double_sided", twins ? "true" : "false"));
-        process_free(&p);
     }
 }
 
@@ -305,12 +298,11 @@ TEST(inspect_tells_what_a_device_can_reach) {
     } cases[] = {{5.0, "false"}, {reach + 0.001, "false"}, {reach - 0.001, "true"}};
     for (size_t i = 0; i < COUNT_OF(cases); i++) {
         const double places[3] = {-cases[i].away, 0.0, cases[i].away};
-        process p = RUN_TOOL("inspect", write_sheets(sheet, 6, places, 3));
+        SCOPED_PROCESS p = RUN_TOOL("inspect", write_sheets(sheet, 6, places, 3));
         check_done(&p);
         assert_true(is_value(p.out, "n0", "in_reach", cases[i].expected));
         assert_true(is_value(p.out, "n1", "in_reach", "true"));
         assert_true(is_value(p.out, "n2", "in_reach", cases[i].expected));
-        process_free(&p);
     }
 }
 
@@ -326,7 +318,7 @@ static void remove_spaces(char *text) {
 
 TEST(pretty_is_the_same_json_over_several_lines) {
     process one = RUN_TOOL("inspect", plate);
-    process many = RUN_TOOL("inspect", plate, "--pretty");
+    SCOPED_PROCESS many = RUN_TOOL("inspect", plate, "--pretty");
     check_done(&one);
     check_done(&many);
     assert_int_equal(lines_in(one.out), 1);
@@ -335,23 +327,21 @@ TEST(pretty_is_the_same_json_over_several_lines) {
     remove_spaces(many.out);
     assert_string_equal(one.out, many.out);
     process_free(&one);
-    process_free(&many);
 }
 
 TEST(inspect_of_an_untagged_file_finds_nothing_and_hints) {
-    process p = RUN_TOOL("inspect", write_plate("untagged.gltf", ""));
+    SCOPED_PROCESS p = RUN_TOOL("inspect", write_plate("untagged.gltf", ""));
     check_done(&p);
     assert_true(strncmp(p.out, "{\"surfaces\": []", 15) == 0);
     CHECK_SAME(json_number_of(p.out, "skipped"), 1.0L);
     assert_non_null(strstr(p.err, "knurl_spatial_frequency"));
     assert_int_equal(lines_in(p.err), 1);
-    process_free(&p);
 }
 
 TEST(devices_are_listed_for_people_and_as_json) {
     static const char *const names[] = {"fake", "touch", "falcon", "rawhid"};
     process people = RUN_TOOL("devices");
-    process json = RUN_TOOL("devices", "--json");
+    SCOPED_PROCESS json = RUN_TOOL("devices", "--json");
     check_done(&people);
     check_done(&json);
     assert_int_equal(lines_in(json.out), 1);
@@ -363,7 +353,6 @@ TEST(devices_are_listed_for_people_and_as_json) {
     }
     assert_non_null(strstr(people.out, "hand_stiffness")); /* and how the fake one is set up */
     process_free(&people);
-    process_free(&json);
 }
 
 TEST(version_and_help_are_no_errors) {
@@ -371,13 +360,12 @@ TEST(version_and_help_are_no_errors) {
     (void)snprintf(expected, sizeof expected, "knurl %d.%d.%d\n", KNURL_VERSION_MAJOR, KNURL_VERSION_MINOR,
                    KNURL_VERSION_PATCH);
     process version = RUN_TOOL("--version");
-    process help = RUN_TOOL("--help");
+    SCOPED_PROCESS help = RUN_TOOL("--help");
     check_done(&version);
     check_done(&help);
     assert_string_equal(version.out, expected);
     assert_non_null(strstr(help.out, "knurl run"));
     process_free(&version);
-    process_free(&help);
 }
 
 TEST(a_full_disk_does_not_look_like_success) {

@@ -31,7 +31,7 @@ TEST(each_command_has_a_help_of_its_own) {
 
 /* Every option that completion offers is one that the command takes: it complains of anything but its name. */
 TEST(completion_offers_what_commands_take) {
-    process script = RUN_TOOL("completion", "bash");
+    SCOPED_PROCESS script = RUN_TOOL("completion", "bash");
     size_t tried = 0;
     for (size_t i = 0; i < COUNT_OF(commands); i++) {
         char label[64];
@@ -55,13 +55,12 @@ TEST(completion_offers_what_commands_take) {
         }
     }
     assert_true(tried >= 35);
-    process_free(&script);
 }
 
 TEST(man_page_and_completions_name_every_command) {
     process man = RUN_TOOL("man");
     process zsh = RUN_TOOL("completion", "zsh");
-    process fish = RUN_TOOL("completion", "fish");
+    SCOPED_PROCESS fish = RUN_TOOL("completion", "fish");
     for (size_t i = 0; i < COUNT_OF(commands); i++) {
         char heading[64];
         (void)snprintf(heading, sizeof heading, ".SH \"knurl %s\"", commands[i]);
@@ -71,7 +70,6 @@ TEST(man_page_and_completions_name_every_command) {
     }
     process_free(&man);
     process_free(&zsh);
-    process_free(&fish);
 }
 
 TEST(near_misses_are_guessed) {
@@ -81,40 +79,36 @@ TEST(near_misses_are_guessed) {
                                            {"bench", "--jsn", "'--json'"},   {"scan", "--methid=S1", "'--method'"},
                                            {"signal", "--tick", "'--ticks'"}};
     for (size_t i = 0; i < COUNT_OF(table); i++) {
-        process p = run_tool((const char *const[]){KNURL_TEST_TOOL, table[i][0], table[i][1], NULL});
+        SCOPED_PROCESS p = run_tool((const char *const[]){KNURL_TEST_TOOL, table[i][0], table[i][1], NULL});
         char guess[64];
         (void)snprintf(guess, sizeof guess, "did you mean %s?", table[i][2]);
         assert_int_equal(p.exit_code, 2);
         check_has(p.err, guess);
-        process_free(&p);
     }
-    process far = RUN_TOOL("dance");
+    SCOPED_PROCESS far = RUN_TOOL("dance");
     assert_null(strstr(far.err, "did you mean"));
-    process_free(&far);
 }
 
 TEST(a_value_may_follow_an_equals_sign) {
     process apart = RUN_TOOL("signal", "--method", "T1", "--period-ms", "3", "--ticks", "6");
     process joined = RUN_TOOL("signal", "--method=T1", "--period-ms=3", "--ticks=6");
-    process flag = RUN_TOOL("devices", "--json=yes");
+    SCOPED_PROCESS flag = RUN_TOOL("devices", "--json=yes");
     assert_int_equal(joined.exit_code, 0);
     assert_string_equal(joined.out, apart.out);
     assert_int_equal(flag.exit_code, 2);
     check_has(flag.err, "--json takes no value, found 'yes'");
     process_free(&apart);
     process_free(&joined);
-    process_free(&flag);
 }
 
 TEST(inspect_checks_for_build_pipelines) {
     process good = RUN_TOOL("inspect", "--check", plate);
     assert_int_equal(good.exit_code, 0);
     write_text(tool_path("untagged.gltf"), "{\"asset\": {\"version\": \"2.0\"}}");
-    process untagged = RUN_TOOL("inspect", "--check", tool_path("untagged.gltf"));
+    SCOPED_PROCESS untagged = RUN_TOOL("inspect", "--check", tool_path("untagged.gltf"));
     assert_int_equal(untagged.exit_code, 3);
     check_has(untagged.err, "found 0 surfaces");
     process_free(&good);
-    process_free(&untagged);
 }
 
 /* A trace of one row, with this header. */
@@ -132,24 +126,21 @@ TEST(headers_that_were_written_otherwise_are_told_by_what_was_found) {
                                            {"0,0,0,0", "1,0,0,0", "numbers instead of names"},
                                            {"a,b,c,d", "0,0,0,0", "found none"}};
     for (size_t i = 0; i < COUNT_OF(table); i++) {
-        process p = play(table[i][0], table[i][1]);
+        SCOPED_PROCESS p = play(table[i][0], table[i][1]);
         assert_int_equal(p.exit_code, 1);
         check_has(p.err, table[i][2]);
-        process_free(&p);
     }
-    process marked = play("\xef\xbb\xbft,x,y,z", "0,0,-0.001,0");
+    SCOPED_PROCESS marked = play("\xef\xbb\xbft,x,y,z", "0,0,-0.001,0");
     assert_null(strstr(marked.err, "line 1"));
-    process_free(&marked);
 }
 
 TEST(a_trace_in_millimetres_is_warned_of) {
     process mm = play("t,x,y,z", "0,-50,0,0\n1,50,0,0");
-    process m = play("t,x,y,z", "0,-0.05,0,0\n1,0.05,0,0");
+    SCOPED_PROCESS m = play("t,x,y,z", "0,-0.05,0,0\n1,0.05,0,0");
     check_has(mm.err, "x spans 100 m");
     check_has(mm.err, "millimetres?");
     assert_null(strstr(m.err, "millimetres"));
     process_free(&mm);
-    process_free(&m);
 }
 
 SUITE_FIXTURES(make_folder, remove_folder)

@@ -189,17 +189,15 @@ TEST(a_surface_called_none_can_be_told_from_no_contact) {
     for (size_t i = 0; i < COUNT_OF(runs); i++) {
         char cell[64];
         write_text(tool_path("none.csv"), runs[i].trace);
-        process p = RUN_TOOL("run", scene, "--fast", "--trace", tool_path("none.csv"), "--out", "-");
+        SCOPED_PROCESS p = RUN_TOOL("run", scene, "--fast", "--trace", tool_path("none.csv"), "--out", "-");
         first_cell(strchr(p.out, 0x0a) + 1, cell, sizeof cell);
         assert_string_equal(cell, runs[i].cell);
-        process_free(&p);
     }
 }
 
 TEST(inspect_tells_the_true_name) {
-    process p = RUN_TOOL("inspect", write_named("formula.gltf", "=none", 0.2));
+    SCOPED_PROCESS p = RUN_TOOL("inspect", write_named("formula.gltf", "=none", 0.2));
     assert_non_null(strstr(p.out, "\"name\": \"=none\""));
-    process_free(&p);
 }
 
 SUITE_FIXTURES(make_folder, remove_folder)

@@ -183,15 +183,13 @@ TEST(a_fifo_is_written_to_and_stays_one) {
     struct stat info;
     assert_int_equal(mkfifo(fifo, 0600), 0);
     const char *const reader[] = {"/bin/cat", fifo, NULL};
-    process cat = process_start(reader, NULL);
-    process p = RUN_TOOL("run", plate, "--fast", "--seconds", "0.01", "--out", fifo);
+    SCOPED_PROCESS cat = process_start(reader, NULL);
+    SCOPED_PROCESS p = RUN_TOOL("run", plate, "--fast", "--seconds", "0.01", "--out", fifo);
     process_finish(&cat);
     check_done(&p);
     assert_int_equal(lines_in(cat.out), 11);
     assert_int_equal(stat(fifo, &info), 0);
     assert_true(S_ISFIFO(info.st_mode));
-    process_free(&p);
-    process_free(&cat);
 }
 
 static void pause_ms(long ms) {
@@ -273,14 +271,13 @@ TEST(a_run_whose_reader_has_gone_leaves_nothing) {
 TEST(a_name_that_is_taken_meanwhile_is_a_failure) {
     const char *const arguments[] = {KNURL_TEST_TOOL,        "run", plate, "--seconds", "1", "--out",
                                      tool_path("taken.csv"), NULL};
-    process p = process_start(arguments, NULL);
+    SCOPED_PROCESS p = process_start(arguments, NULL);
     wait_for_part();
     assert_int_equal(mkdir(tool_path("taken.csv"), 0777), 0);
     process_finish(&p);
     assert_int_equal(p.exit_code, 1);
     assert_non_null(strstr(p.err, "taken.csv"));
     assert_int_equal(files_that_end(".part"), 0);
-    process_free(&p);
 }
 
 TEST(a_study_that_a_signal_ends_leaves_nothing) {

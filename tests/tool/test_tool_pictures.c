@@ -119,10 +119,9 @@ TEST(a_drawing_of_what_is_no_run_is_refused_with_its_file_and_line) {
         process_free(&p);
         assert_false(file_exists(tool_path("bad.svg")));
     }
-    process p = draw_run(tool_path("gone.csv"), tool_path("bad.svg"));
+    SCOPED_PROCESS p = draw_run(tool_path("gone.csv"), tool_path("bad.svg"));
     assert_int_equal(p.exit_code, 1);
     assert_non_null(strstr(p.err, "gone.csv: No such file or directory"));
-    process_free(&p);
 }
 
 SUITE_FIXTURES(make_folder, remove_folder)

@@ -295,11 +295,10 @@ TEST(a_line_break_in_a_name_does_not_break_the_line) {
 }
 
 TEST(without_a_command_the_usage_is_told) {
-    process p = RUN_TOOL(NULL);
+    SCOPED_PROCESS p = RUN_TOOL(NULL);
     assert_int_equal(p.exit_code, 2);
     assert_int_equal(p.sizes[0], 0);
     assert_non_null(strstr(p.err, "knurl"));
-    process_free(&p);
 }
 
 /* The tool by itself in a folder, as it is where the library that the studies need is not installed. */

@@ -44,8 +44,8 @@ TEST(a_trace_on_a_plate_gives_the_forces_of_the_equations) {
     write_text(
         tool_path("trace.csv"),
         "t,x,y,z\n0,0.25,0.501,-0.125\n0.01,0.25,0.499,-0.125\n0.02,0.25,0.499,-0.125\n0.06,0.26,0.499,-0.125\n");
-    process p = RUN_TOOL("run", write_plate("plate.gltf", TAG), "--trace", tool_path("trace.csv"), "--fast", "--method",
-                         "S2", "--out", tool_path("out.csv"));
+    SCOPED_PROCESS p = RUN_TOOL("run", write_plate("plate.gltf", TAG), "--trace", tool_path("trace.csv"), "--fast",
+                                "--method", "S2", "--out", tool_path("out.csv"));
     check_done(&p);
     char *csv = read_run(tool_path("out.csv"), 61); /* the last row too */
     uint64_t touching = 0;
@@ -81,7 +81,6 @@ TEST(a_trace_on_a_plate_gives_the_forces_of_the_equations) {
     CHECK_CLOSE(json_number_of(p.out, "contact_s"), 0.001 * (double)touching, 0.0021); /* from the crests' height on */
     check_no_leftovers();
     free(csv);
-    process_free(&p);
 }
 
 TEST(the_summary_is_one_line_of_json_with_every_key_of_the_contract) {
@@ -116,8 +115,8 @@ TEST(fast_twice_gives_the_same_bytes_and_another_seed_others) {
             RUN_TOOL("run", plate, "--fast", "--stroke", strokes[i], "--seconds", "1.5", "--out", tool_path("one.csv"));
         process two =
             RUN_TOOL("run", plate, "--fast", "--stroke", strokes[i], "--seconds", "1.5", "--out", tool_path("two.csv"));
-        process other = RUN_TOOL("run", plate, "--fast", "--stroke", strokes[i], "--seconds", "1.5", "--out",
-                                 tool_path("other.csv"), "--device", "fake:?seed=2");
+        SCOPED_PROCESS other = RUN_TOOL("run", plate, "--fast", "--stroke", strokes[i], "--seconds", "1.5", "--out",
+                                        tool_path("other.csv"), "--device", "fake:?seed=2");
         check_done(&one);
         check_done(&two);
         check_done(&other);
@@ -131,7 +130,6 @@ TEST(fast_twice_gives_the_same_bytes_and_another_seed_others) {
         free(third);
         process_free(&one);
         process_free(&two);
-        process_free(&other);
     }
     check_no_leftovers();
 }
@@ -145,8 +143,9 @@ TEST(the_full_model_feels_the_same) {
     for (size_t i = 0; i < COUNT_OF(methods); i++) {
         process reduced = RUN_TOOL("run", plate, "--fast", "--stroke", "sweep", "--seconds", "2", "--method",
                                    methods[i], "--device", devices[i], "--out", tool_path("reduced.csv"));
-        process full = RUN_TOOL("run", plate, "--fast", "--stroke", "sweep", "--seconds", "2", "--method", methods[i],
-                                "--device", devices[i], "--out", tool_path("full.csv"), "--full-model");
+        SCOPED_PROCESS full =
+            RUN_TOOL("run", plate, "--fast", "--stroke", "sweep", "--seconds", "2", "--method", methods[i], "--device",
+                     devices[i], "--out", tool_path("full.csv"), "--full-model");
         check_done(&reduced);
         check_done(&full);
         char *first = read_run(tool_path("reduced.csv"), 2000);
@@ -168,7 +167,6 @@ TEST(the_full_model_feels_the_same) {
         free(first);
         free(second);
         process_free(&reduced);
-        process_free(&full);
     }
 }
 
@@ -205,8 +203,8 @@ TEST(real_time_gives_the_same_csv_as_fast_and_says_nothing_into_a_pipe) {
 }
 
 TEST(rate_seconds_surface_and_method_are_obeyed) {
-    process p = RUN_TOOL("run", plate, "--fast", "--rate", "3000", "--seconds", "1", "--surface", "bar 2 mm",
-                         "--method", "S1", "--out", tool_path("out.csv"));
+    SCOPED_PROCESS p = RUN_TOOL("run", plate, "--fast", "--rate", "3000", "--seconds", "1", "--surface", "bar 2 mm",
+                                "--method", "S1", "--out", tool_path("out.csv"));
     check_done(&p);
     CHECK_SAME(json_number_of(p.out, "ticks"), 3000.0L);
     CHECK_SAME(json_number_of(p.out, "events"), 0.0L); /* S1 has none */
@@ -224,12 +222,12 @@ TEST(rate_seconds_surface_and_method_are_obeyed) {
         CHECK_CLOSE(cells[FT], 50.0, 15.0);
     }
     free(csv);
-    process_free(&p);
 }
 
 TEST(a_stroke_lies_1_mm_below_the_surface_along_its_x) {
-    process p = RUN_TOOL("run", plate, "--fast", "--seconds", "1", "--device",
-                         "fake:?tremor=0&coulomb=0&resolution=0&hand_stiffness=10000", "--out", tool_path("out.csv"));
+    SCOPED_PROCESS p =
+        RUN_TOOL("run", plate, "--fast", "--seconds", "1", "--device",
+                 "fake:?tremor=0&coulomb=0&resolution=0&hand_stiffness=10000", "--out", tool_path("out.csv"));
     check_done(&p);
     char *csv = read_run(tool_path("out.csv"), 1000);
     for (size_t row = 0; row <= 600; row += 50) { /* to 35 of 54 mm */
@@ -244,7 +242,6 @@ TEST(a_stroke_lies_1_mm_below_the_surface_along_its_x) {
         CHECK_CLOSE(cells[Z], 0.0, 1e-4);
     }
     free(csv);
-    process_free(&p);
 }
 
 TEST(an_output_is_replaced_only_by_a_whole_one) {
@@ -279,7 +276,7 @@ TEST(an_output_may_be_a_device) {
 }
 
 TEST(a_lost_device_is_a_failure_whose_csv_is_whole) {
-    process p = RUN_TOOL("run", plate, "--fast", "--device", "fake:?lose_at=0.1", "--out", tool_path("out.csv"));
+    SCOPED_PROCESS p = RUN_TOOL("run", plate, "--fast", "--device", "fake:?lose_at=0.1", "--out", tool_path("out.csv"));
     assert_int_equal(p.signal, 0);
     assert_int_equal(p.exit_code, 1);
     assert_int_equal(lines_in(p.err), 2);                               /* what happened when, and how the run ended */
@@ -288,17 +285,15 @@ TEST(a_lost_device_is_a_failure_whose_csv_is_whole) {
     assert_non_null(strstr(p.out, "\"faults\": {\"lost\": 1}"));
     free(read_run(tool_path("out.csv"), 100));
     check_no_leftovers();
-    process_free(&p);
 }
 
 TEST(a_lost_device_may_be_looked_for) {
-    process p = RUN_TOOL("run", plate, "--fast", "--seconds", "1", "--reconnect", "--device", "fake:?lose_at=0.1",
-                         "--out", tool_path("out.csv"));
+    SCOPED_PROCESS p = RUN_TOOL("run", plate, "--fast", "--seconds", "1", "--reconnect", "--device",
+                                "fake:?lose_at=0.1", "--out", tool_path("out.csv"));
     assert_int_equal(p.exit_code, 0);
     assert_non_null(strstr(p.out, "\"ticks\": 1000,"));
     assert_non_null(strstr(p.out, "\"lost\": 1, \"resumed\": 1, \"reconnected\": 1"));
     free(read_run(tool_path("out.csv"), 1000));
-    process_free(&p);
 }
 
 /* 5000 N/m is beyond (0.5 + 2 N s/m)/1.5 ms and the 1020 N/m of a Touch: a line each. A demo's plate is within both. */

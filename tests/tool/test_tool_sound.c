@@ -50,8 +50,8 @@ TEST(a_stroke_at_250_hz_sounds_at_250_hz) {
     write_text(
         tool_path("trace.csv"),
         "t,x,y,z\n0,0.205,0.501,-0.125\n0.1,0.205,0.501,-0.125\n0.11,0.205,0.499,-0.125\n0.47,0.295,0.499,-0.125\n");
-    process p = RUN_TOOL("run", write_plate("plate.gltf", TAG), "--trace", tool_path("trace.csv"), "--fast",
-                         "--seconds", "0.45", "--wav", tool_path("felt.wav"));
+    SCOPED_PROCESS p = RUN_TOOL("run", write_plate("plate.gltf", TAG), "--trace", tool_path("trace.csv"), "--fast",
+                                "--seconds", "0.45", "--wav", tool_path("felt.wav"));
     check_done(&p);
     assert_int_equal(read_wav(tool_path("felt.wav"), samples, COUNT_OF(samples)), 450 * 48);
     for (int i = 0; i < 100 * 48; i++) {
@@ -64,13 +64,12 @@ TEST(a_stroke_at_250_hz_sounds_at_250_hz) {
     }
     /* Four ticks a cycle, from a crest on: the force is a cosine of 4/pi K A, and the sound a square wave as high. */
     CHECK_CLOSE(sqrt(line[0] * line[0] + line[1] * line[1]), 4.0 / PI * 4.0 / PI * LEVEL, 0.01 * LEVEL);
-    process_free(&p);
 }
 
 TEST(real_time_gives_the_same_sound_as_fast) {
     const char *path = write_plate("plate.gltf", TAG);
     process a = RUN_TOOL("run", path, "--seconds", "1", "--wav", tool_path("a.wav"), "--fast");
-    process b = RUN_TOOL("run", path, "--seconds", "1", "--wav", tool_path("b.wav"));
+    SCOPED_PROCESS b = RUN_TOOL("run", path, "--seconds", "1", "--wav", tool_path("b.wav"));
     static double of[2][48000];
     check_done(&a);
     check_done(&b);
@@ -78,12 +77,10 @@ TEST(real_time_gives_the_same_sound_as_fast) {
     assert_int_equal(read_wav(tool_path("b.wav"), of[1], 48000), 48000);
     assert_memory_equal(of[0], of[1], sizeof of[0]);
     process_free(&a);
-    process_free(&b);
 }
 
 TEST(a_sound_does_not_replace_the_model) {
     const char *path = write_plate("plate.gltf", TAG);
-    process p = RUN_TOOL("run", path, "--seconds", "1", "--fast", "--wav", path);
+    SCOPED_PROCESS p = RUN_TOOL("run", path, "--seconds", "1", "--fast", "--wav", path);
     check_refused(&p, 1, "it would be replaced", "a model");
-    process_free(&p);
 }

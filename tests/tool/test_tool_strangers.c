@@ -149,13 +149,13 @@ TEST(a_run_that_loads_ends_at_a_signal) {
     const struct timespec pause = {0, 100000000};
     write_slow_file(tool_path("slow.gltf"));
     for (size_t i = 0; i < COUNT_OF(numbers); i++) {
-        process p = process_start((const char *const[]){KNURL_TEST_TOOL, "run", tool_path("slow.gltf"), NULL}, NULL);
+        SCOPED_PROCESS p =
+            process_start((const char *const[]){KNURL_TEST_TOOL, "run", tool_path("slow.gltf"), NULL}, NULL);
         (void)nanosleep(&pause, NULL);
         assert_int_equal(kill(p.pid, numbers[i]), 0);
         process_finish(&p);
         assert_int_equal(p.signal, numbers[i]); /* 130 and 143 to a shell */
         assert_string_equal(p.out, "");
-        process_free(&p);
     }
     assert_int_equal(remove(tool_path("slow.gltf")), 0);
 }

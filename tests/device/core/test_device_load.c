@@ -139,8 +139,6 @@ static void print_all(const knurl_loop_stats *stats, const knurl_device_status *
 TEST(a_loop_over_an_io_thread_runs_beside_a_busy_core) {
     pthread_t busy;
     knurl_loop_desc desc;
-    knurl_loop_stats stats;
-    knurl_device_status status;
     knurl_device_functions f;
     knurl_device *device = NULL;
     knurl_loop *loop = NULL;
@@ -163,10 +161,8 @@ TEST(a_loop_over_an_io_thread_runs_beside_a_busy_core) {
     const double took = 1e-9 * (double)(now_ns() - start);
     knurl_store_release(&spins, 0u);
     assert_int_equal(pthread_join(busy, NULL), 0);
-    knurl_loop_stats_init(&stats, sizeof stats);
-    knurl_device_status_init(&status, sizeof status);
-    assert_int_equal(knurl_loop_get_stats(loop, &stats), KNURL_OK);
-    assert_int_equal(knurl_device_get_status(device, &status), KNURL_OK);
+    knurl_loop_stats stats = loop_stats(loop);
+    knurl_device_status status = device_status(device);
     knurl_loop_destroy(loop);
     knurl_device_close(device);
     print_all(&stats, &status, took);

@@ -11,7 +11,7 @@ static home h; /* set up anew by each test */
 /* --- not blocking --- */
 
 TEST(what_does_not_block_is_read_and_written_here_and_now) {
-    knurl_device *device = home_open(&h, 0);
+    SCOPED_DEVICE *device = home_open(&h, 0);
     knurl_device_sample sample;
     const double force[3] = {0.5, -1.0, 2.0};
     for (int i = 0; i < 20; i++) {
@@ -27,7 +27,6 @@ TEST(what_does_not_block_is_read_and_written_here_and_now) {
     assert_int_equal(h.reads, 20);
     assert_int_equal(h.writes, 20);
     assert_int_equal(h.strangers, 0);
-    knurl_device_close(device);
 }
 
 TEST(forces_are_finite_and_at_most_what_it_can_play) {
@@ -38,18 +37,17 @@ TEST(forces_are_finite_and_at_most_what_it_can_play) {
         {{0.0, 1e6, 0.0}, {0.0, HOME_FORCE, 0.0}}, {{NAN, 1.0, 0.0}, {0.0, 0.0, 0.0}},
         {{0.0, INFINITY, 0.0}, {0.0, 0.0, 0.0}},   {{1.0, -INFINITY, NAN}, {0.0, 0.0, 0.0}},
     };
-    knurl_device *device = home_open(&h, 0);
+    SCOPED_DEVICE *device = home_open(&h, 0);
     for (size_t i = 0; i < COUNT_OF(cases); i++) {
         assert_int_equal(knurl_device_write(device, cases[i].written), KNURL_OK);
         for (int axis = 0; axis < 3; axis++) {
             CHECK_CLOSE(h.motor[axis], cases[i].played[axis], 1e-12);
         }
     }
-    knurl_device_close(device);
 }
 
 TEST(halted_it_gets_no_force_until_the_halt_is_released) {
-    knurl_device *device = home_open(&h, 0);
+    SCOPED_DEVICE *device = home_open(&h, 0);
     const double force[3] = {1.0, 0.0, 0.0};
     knurl_device_halt(device);
     assert_int_equal(knurl_device_is_halted(device), 1);
@@ -58,7 +56,6 @@ TEST(halted_it_gets_no_force_until_the_halt_is_released) {
     knurl_device_release_halt(device);
     assert_int_equal(knurl_device_write(device, force), KNURL_OK);
     CHECK_SAME(h.motor[0], 1.0L);
-    knurl_device_close(device);
 }
 
 /* A device may be read faster than it measures: the latest position holds for 10 ms. Then it is silent, and is told so
@@ -67,7 +64,7 @@ TEST(without_a_new_position_the_latest_holds_for_10_ms_and_then_the_device_is_si
     for (int i = 0; i < 2; i++) {
         knurl_device_event event;
         knurl_device_sample sample;
-        knurl_device *device = home_open(&h, 0);
+        SCOPED_DEVICE *device = home_open(&h, 0);
         home_place(&h, 0.01, 0.0, 0.0);
         assert_int_equal(knurl_device_read(device, &sample), KNURL_OK);
         h.read_gives = i == 0 ? KNURL_ERROR_DEVICE_NOT_READY : KNURL_ERROR_IO; /* whatever else it may say */
@@ -91,19 +88,17 @@ TEST(without_a_new_position_the_latest_holds_for_10_ms_and_then_the_device_is_si
         h.read_gives = KNURL_OK;
         assert_int_equal(knurl_device_read(device, &sample), KNURL_OK);
         CHECK_SAME(sample.position[0], (long double)0.02);
-        knurl_device_close(device);
     }
 }
 
 TEST(before_its_first_position_there_is_none_to_hold) {
     knurl_device_sample sample;
-    knurl_device *device = home_open(&h, 0);
+    SCOPED_DEVICE *device = home_open(&h, 0);
     h.read_gives = KNURL_ERROR_DEVICE_NOT_READY;
     assert_int_equal(knurl_device_read(device, &sample), KNURL_ERROR_DEVICE_NOT_READY);
     h.read_gives = KNURL_OK;
     assert_int_equal(knurl_device_read(device, &sample), KNURL_OK);
     assert_int_equal(next_code(device, 0), 0);
-    knurl_device_close(device);
 }
 
 /* --- blocking --- */
@@ -134,16 +129,14 @@ TEST(what_blocks_is_read_and_written_in_turn_on_one_other_thread) {
 
 TEST(statuses_count_what_an_io_thread_does_and_are_zero_without_one) {
     for (uint32_t blocking = 0; blocking < 2; blocking++) {
-        knurl_device_status status;
         knurl_device_sample sample;
-        knurl_device *device = home_open(&h, blocking);
+        SCOPED_DEVICE *device = home_open(&h, blocking);
         if (blocking) {
             knurl_store_relaxed(&h.takes_ns, (int64_t)300000);
             wait_for_count(&h.reads, 60);
         }
         (void)knurl_device_read(device, &sample);
-        knurl_device_status_init(&status, sizeof status);
-        assert_int_equal(knurl_device_get_status(device, &status), KNURL_OK);
+        const knurl_device_status status = device_status(device);
         assert_int_equal(status.lost, 0);
         assert_int_equal(status.events, 0);
         if (blocking) {
@@ -154,7 +147,6 @@ TEST(statuses_count_what_an_io_thread_does_and_are_zero_without_one) {
             assert_int_equal(status.exchanges, 0);
             CHECK_SAME(status.exchange_ns_p50, 0.0L);
         }
-        knurl_device_close(device);
     }
 }
 
@@ -224,7 +216,7 @@ TEST(a_lost_device_comes_back_only_by_being_reopened) {
 }
 
 TEST(what_cannot_be_reopened_stays_lost) {
-    knurl_device *device = NULL;
+    SCOPED_DEVICE *device = NULL;
     knurl_device_sample sample;
     memset(&h, 0, sizeof h);
     knurl_device_functions f = home_functions(&h, 0);
@@ -238,7 +230,6 @@ TEST(what_cannot_be_reopened_stays_lost) {
     home_inject(&h, DOUBLE_WELL);
     assert_int_equal(knurl_device_reopen(device), KNURL_ERROR_DEVICE_LOST);
     assert_int_equal(knurl_device_read(device, &sample), KNURL_ERROR_DEVICE_LOST);
-    knurl_device_close(device);
 }
 
 TEST(it_is_started_before_it_is_read) {
@@ -293,7 +284,7 @@ TEST(what_blocks_cannot_be_stepped_and_what_does_not_can) {
         double wanted = 1.0;
         knurl_loop_desc desc;
         knurl_loop *loop = NULL;
-        knurl_device *device = home_open(&h, blocking);
+        SCOPED_DEVICE *device = home_open(&h, blocking);
         knurl_loop_desc_init(&desc, sizeof desc);
         desc.device = device;
         desc.force_callback = push;
@@ -302,6 +293,5 @@ TEST(what_blocks_cannot_be_stepped_and_what_does_not_can) {
         assert_int_equal(knurl_loop_step(loop, 50), blocking ? KNURL_ERROR_UNSUPPORTED : KNURL_OK);
         assert_true(blocking || (h.reads == 50 && h.writes == 50));
         knurl_loop_destroy(loop);
-        knurl_device_close(device);
     }
 }

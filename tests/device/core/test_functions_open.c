@@ -179,21 +179,18 @@ static void tell_little(void *user, knurl_device_info *info) {
 
 TEST(what_its_owner_does_not_say_promises_nothing) {
     for (uint32_t blocking = 0; blocking < 2; blocking++) {
-        knurl_device *device = NULL;
-        knurl_device_info info;
+        SCOPED_DEVICE *device = NULL;
         memset(&h, 0, sizeof h);
         knurl_device_functions f = home_functions(&h, blocking);
         f.get_info = tell_little;
         assert_int_equal(knurl_device_open_functions(&f, &device), KNURL_OK);
-        knurl_device_info_init(&info, sizeof info);
-        assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
+        const knurl_device_info info = device_info(device);
         assert_int_equal(strlen(info.name), sizeof info.name - 1);
         CHECK_SAME(info.max_force, 1.0L);
         assert_true(isinf(info.continuous_force) && isinf(info.max_stiffness) && isinf(info.max_damping));
         assert_true(info.heat_time > 0.0);
         CHECK_SAME(info.resolution, 0.0L);
         CHECK_SAME(info.native_rate, blocking ? 1000.0L : 0.0L);
-        knurl_device_close(device);
     }
 }
 
@@ -208,14 +205,12 @@ static void tell_much(void *user, knurl_device_info *info) {
 }
 
 TEST(what_its_owner_says_is_passed_on) {
-    knurl_device *device = NULL;
-    knurl_device_info info;
+    SCOPED_DEVICE *device = NULL;
     memset(&h, 0, sizeof h);
     knurl_device_functions f = home_functions(&h, 1);
     f.get_info = tell_much;
     assert_int_equal(knurl_device_open_functions(&f, &device), KNURL_OK);
-    knurl_device_info_init(&info, sizeof info);
-    assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
+    const knurl_device_info info = device_info(device);
     assert_string_equal(info.name, "ours");
     CHECK_SAME(info.native_rate, 500.0L);
     CHECK_SAME(info.resolution, (long double)0.001);
@@ -223,16 +218,14 @@ TEST(what_its_owner_says_is_passed_on) {
     CHECK_SAME(info.delay, 3.0L);
     CHECK_SAME(info.workspace_min[2], -0.25L);
     assert_int_equal(info.struct_size, sizeof info);
-    knurl_device_close(device);
 }
 
 TEST(outputs_whose_size_nobody_set_are_refused_and_untouched) {
-    knurl_device *device = home_open(&h, 0);
+    SCOPED_DEVICE *device = home_open(&h, 0);
     knurl_device_info info;
     knurl_device_status status;
     memset(&info, 0, sizeof info);
     memset(&status, 0, sizeof status);
     CHECK_REFUSED(knurl_device_get_info(device, &info), KNURL_ERROR_ARGUMENT, info);
     CHECK_REFUSED(knurl_device_get_status(device, &status), KNURL_ERROR_ARGUMENT, status);
-    knurl_device_close(device);
 }

@@ -68,17 +68,14 @@ static knurl_result open_told(knurl_device **device) {
 }
 
 static void check_taken(const struct number *number, double value) {
-    knurl_device *device = NULL;
-    knurl_device_info info;
+    SCOPED_DEVICE *device = NULL;
     told = number;
     told_value = value;
-    knurl_device_info_init(&info, sizeof info);
     if (open_told(&device)) {
         fail_msg("%s = %g: %s", number->name, value, knurl_error_message());
     }
-    assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
+    knurl_device_info info = device_info(device);
     assert_memory_equal((char *)&info + number->at, &value, sizeof value);
-    knurl_device_close(device);
 }
 
 static void check_told_is_refused(const struct number *number, double value) {
@@ -142,11 +139,11 @@ TEST(a_workspace_is_not_inside_out) {
 
 /* Told well when it is opened and badly later: it is not started and no loop takes it; told well again, it goes on. */
 TEST(what_a_device_tells_later_is_checked_as_well) {
-    knurl_device *device = NULL;
+    SCOPED_DEVICE *device = NULL;
     knurl_device_info info;
     knurl_loop *loop = NULL;
     knurl_loop_desc desc;
-    knurl_scene *scene = NULL;
+    SCOPED_SCENE *scene = NULL;
     knurl_loop_desc_init(&desc, sizeof desc);
     knurl_device_info_init(&info, sizeof info);
     assert_int_equal(knurl_scene_create(NULL, &scene), KNURL_OK);
@@ -166,8 +163,6 @@ TEST(what_a_device_tells_later_is_checked_as_well) {
     told = NULL;
     assert_int_equal(knurl_loop_create(&desc, &loop), KNURL_OK);
     knurl_loop_destroy(loop);
-    knurl_scene_destroy(scene);
-    knurl_device_close(device);
 }
 
 /* --- the fake's keys of the same numbers --- */

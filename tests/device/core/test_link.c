@@ -102,17 +102,16 @@ TEST(a_force_that_nobody_renews_is_played_for_10_ms_and_then_zeroed) {
 
 TEST(no_force_is_no_force_however_old_it_is) {
     const double none[3] = {0.0, 0.0, 0.0};
-    knurl_device *device = home_open(&h, 1);
+    SCOPED_DEVICE *device = home_open(&h, 1);
     assert_int_equal(knurl_device_write(device, none), KNURL_OK);
     sleep_ns(40000000);
     assert_int_equal(next_code(device, 0), 0);
     assert_int_equal(knurl_device_is_halted(device), 0);
-    knurl_device_close(device);
 }
 
 TEST(a_halt_reaches_the_motors_with_the_next_exchange) {
     const double f[3] = {1.0, 0.0, 0.0};
-    knurl_device *device = home_open(&h, 1);
+    SCOPED_DEVICE *device = home_open(&h, 1);
     assert_int_equal(knurl_device_write(device, f), KNURL_OK);
     wait_for_count(&h.writes, knurl_load_acquire(&h.writes) + 2);
     knurl_device_halt(device);
@@ -120,7 +119,6 @@ TEST(a_halt_reaches_the_motors_with_the_next_exchange) {
     wait_for_count(&h.writes, knurl_load_acquire(&h.writes) + 2);
     const int64_t limp = knurl_load_acquire(&h.limp_since);
     assert_true(limp > 0 && limp - halted <= PERIOD_NS);
-    knurl_device_close(device);
 }
 
 /* --- pace --- */
@@ -166,7 +164,7 @@ TEST(exchanges_that_take_longer_set_the_rhythm_and_make_no_burst) {
 TEST(a_mute_device_is_silent_after_10_ms_and_its_force_is_zeroed) {
     knurl_device_event event = {0};
     knurl_device_sample sample;
-    knurl_device *device = home_open(&h, 1);
+    SCOPED_DEVICE *device = home_open(&h, 1);
     tick_for(device, 20, 1.0);
     assert_int_equal(next_code(device, 0), 0);
     home_inject(&h, DOUBLE_MUTE);
@@ -178,7 +176,6 @@ TEST(a_mute_device_is_silent_after_10_ms_and_its_force_is_zeroed) {
     assert_true(limp > 0 && limp - injected <= 10000000 + h.mute_ns + PERIOD_NS); /* an exchange takes mute_ns */
     assert_int_equal(knurl_device_read(device, &sample), KNURL_ERROR_DEVICE_NOT_READY);
     assert_int_equal(count_events(device, KNURL_FAULT_SILENT), 0); /* told once */
-    knurl_device_close(device);
 }
 
 TEST(a_second_of_silence_is_a_loss) {
@@ -201,7 +198,7 @@ TEST(a_second_of_silence_is_a_loss) {
 TEST(a_device_that_is_heard_again_is_read_again) {
     knurl_device_event event;
     knurl_device_sample sample;
-    knurl_device *device = home_open(&h, 1);
+    SCOPED_DEVICE *device = home_open(&h, 1);
     home_place(&h, 0.01, 0.0, 0.0);
     tick_for(device, 10, 1.0);
     home_inject(&h, DOUBLE_MUTE);
@@ -213,18 +210,16 @@ TEST(a_device_that_is_heard_again_is_read_again) {
     home_inject(&h, DOUBLE_MUTE); /* and its next silence is a new one */
     tick_for(device, 10, 0.0);
     assert_int_equal(wait_for_event(device, KNURL_FAULT_SILENT, &event), 1);
-    knurl_device_close(device);
 }
 
 TEST(an_unplugged_device_is_lost_at_once) {
     knurl_device_event event;
-    knurl_device *device = home_open(&h, 1);
+    SCOPED_DEVICE *device = home_open(&h, 1);
     tick_for(device, 5, 1.0);
     home_inject(&h, DOUBLE_UNPLUG);
     const int64_t injected = now_ns();
     assert_int_equal(wait_for_event(device, KNURL_FAULT_LOST, &event), 1);
     assert_true(event.time_ns - injected <= PERIOD_NS);
-    knurl_device_close(device);
 }
 
 static void pull(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user) {
@@ -240,7 +235,7 @@ TEST(a_loop_does_not_resume_while_the_device_is_silent) {
         knurl_loop_desc desc;
         knurl_loop *loop = NULL;
         knurl_device_event event;
-        knurl_device *device = home_open(&h, 1);
+        SCOPED_DEVICE *device = home_open(&h, 1);
         knurl_loop_desc_init(&desc, sizeof desc);
         desc.device = device;
         desc.force_callback = pull;
@@ -257,22 +252,18 @@ TEST(a_loop_does_not_resume_while_the_device_is_silent) {
         home_inject(&h, DOUBLE_WELL);
         assert_int_equal(wait_for_event(device, KNURL_FAULT_RESUMED, &event), 1);
         knurl_loop_destroy(loop);
-        knurl_device_close(device);
     }
 }
 
 TEST(a_status_says_that_it_is_lost_though_nobody_reads_it) {
     knurl_device_event event;
-    knurl_device_status status;
-    knurl_device *device = home_open(&h, 1);
+    SCOPED_DEVICE *device = home_open(&h, 1);
     home_inject(&h, DOUBLE_UNPLUG);
     assert_int_equal(wait_for_event(device, KNURL_FAULT_LOST, &event), 1);
     sleep_ns(2000000);
-    knurl_device_status_init(&status, sizeof status);
-    assert_int_equal(knurl_device_get_status(device, &status), KNURL_OK);
+    const knurl_device_status status = device_status(device);
     assert_int_equal(status.lost, 1);
     assert_int_equal(status.halted, 1);
-    knurl_device_close(device);
 }
 
 /* --- an exchange that hangs --- */
@@ -281,7 +272,7 @@ TEST(while_an_exchange_hangs_nobody_waits_and_the_reader_says_so_once) {
     const double f[3] = {1.0, 0.0, 0.0};
     knurl_device_sample sample;
     int not_ready = 0;
-    knurl_device *device = home_open(&h, 1);
+    SCOPED_DEVICE *device = home_open(&h, 1);
     tick_for(device, 5, 1.0);
     home_inject(&h, DOUBLE_HANG);
     for (int ms = 0; ms < 100; ms++) {
@@ -297,19 +288,17 @@ TEST(while_an_exchange_hangs_nobody_waits_and_the_reader_says_so_once) {
     home_inject(&h, DOUBLE_WELL);
     wait_for_count(&h.reads, knurl_load_acquire(&h.reads) + 3);
     assert_int_equal(knurl_device_read(device, &sample), KNURL_OK);
-    knurl_device_close(device);
 }
 
 /* Reader and I/O thread both notice it, the reader while it lasts. */
 TEST(a_hang_that_ends_without_an_answer_is_still_one_silence) {
-    knurl_device *device = home_open(&h, 1);
+    SCOPED_DEVICE *device = home_open(&h, 1);
     tick_for(device, 5, 1.0);
     knurl_store_relaxed(&h.hangs_for, (int64_t)60000000);
     home_inject(&h, DOUBLE_HANG);
     tick_for(device, 150, 1.0); /* it hangs two times and a half */
     assert_int_equal(count_events(device, KNURL_FAULT_SILENT), 1);
     home_inject(&h, DOUBLE_WELL);
-    knurl_device_close(device);
 }
 
 /* A link without its thread, as the reader finds it when the exchange after the latest position was counted, and the
@@ -360,7 +349,7 @@ TEST(after_a_reconnect_no_force_from_before_is_played) {
     const double f[3] = {3.0, 0.0, 0.0};
     knurl_device_event event;
     knurl_device_sample sample;
-    knurl_device *device = home_open(&h, 1);
+    SCOPED_DEVICE *device = home_open(&h, 1);
     for (int k = 0; k < 5; k++) {
         assert_int_equal(knurl_device_write(device, f), KNURL_OK);
         home_inject(&h, DOUBLE_UNPLUG);
@@ -378,5 +367,4 @@ TEST(after_a_reconnect_no_force_from_before_is_played) {
         }
         assert_int_equal(knurl_device_read(device, &sample), KNURL_OK);
     }
-    knurl_device_close(device);
 }

@@ -65,7 +65,7 @@ static void read_and_write(knurl_device *device, int count) {
 TEST(reading_and_writing_ask_for_nothing_but_the_time) {
     static const int faults[] = {DOUBLE_WELL, DOUBLE_MUTE, DOUBLE_NAN, DOUBLE_JUMP, DOUBLE_HANG, DOUBLE_UNPLUG};
     for (size_t i = 0; i < COUNT_OF(faults); i++) {
-        knurl_device *device = home_open(&h, 1);
+        SCOPED_DEVICE *device = home_open(&h, 1);
         for (int round = 0; round < 40; round++) {
             if (round == 10) {
                 home_inject(&h, faults[i]);
@@ -79,7 +79,6 @@ TEST(reading_and_writing_ask_for_nothing_but_the_time) {
         }
         assert_true(calls >= 40); /* the sleeps: the wrapping works */
         home_inject(&h, DOUBLE_WELL);
-        knurl_device_close(device);
     }
 }
 

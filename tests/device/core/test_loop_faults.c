@@ -230,7 +230,7 @@ TEST_WITH(a_halt_lasts_until_the_force_that_begins_the_ramp_is_written, NULL, en
     init();
     extra_driver.write = write_and_see_halt;
     surface_parts parts = surface_plane();
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     halts = 0;
     r.desc.scene = scene;
     r.desc.force_callback = NULL;
@@ -242,7 +242,6 @@ TEST_WITH(a_halt_lasts_until_the_force_that_begins_the_ramp_is_written, NULL, en
     assert_int_equal(knurl_device_is_halted(&r.device), 0);
     assert_int_equal(r.writes, 20);
     rig_destroy(&r);
-    knurl_scene_destroy(scene);
 }
 
 TEST_WITH(after_a_halt_the_force_comes_back_by_the_ramp, NULL, end_rig) {

@@ -72,9 +72,8 @@ static knurl_result read_turned(void *user, knurl_device_sample *sample) {
 
 static void check_told(double x, double y, double z, double w, int is_told) {
     home h;
-    knurl_device *device = NULL;
+    SCOPED_DEVICE *device = NULL;
     knurl_device_sample sample;
-    knurl_device_status status;
     memset(&h, 0, sizeof h);
     memset(&sample, 0xff, sizeof sample);
     knurl_device_functions f = home_functions(&h, 0);
@@ -85,13 +84,11 @@ static void check_told(double x, double y, double z, double w, int is_told) {
     told[2] = z;
     told[3] = w;
     assert_int_equal(knurl_device_read(device, &sample), KNURL_OK);
-    knurl_device_status_init(&status, sizeof status);
-    assert_int_equal(knurl_device_get_status(device, &status), KNURL_OK);
+    const knurl_device_status status = device_status(device);
     for (int i = 0; i < 4; i++) {
         assert_true(sample.orientation[i] == (is_told ? told[i] : 0.0));
         assert_true(status.orientation[i] == sample.orientation[i]);
     }
-    knurl_device_close(device);
 }
 
 TEST(a_callers_device_may_tell_an_orientation_and_nonsense_is_none) {

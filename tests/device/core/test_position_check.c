@@ -52,7 +52,7 @@ TEST(what_is_not_finite_is_told_once_and_the_force_is_zeroed) {
     static const double wrong[] = {(double)NAN, (double)INFINITY, -(double)INFINITY};
     for (size_t i = 0; i < 3 * COUNT_OF(wrong); i++) {
         knurl_device_event event;
-        knurl_device *device = open_at(1000.0);
+        SCOPED_DEVICE *device = open_at(1000.0);
         double p[3] = {0.01, 0.02, 0.03};
         assert_int_equal(read_at(device, p[0], p[1], p[2]), KNURL_OK);
         CHECK_SAME(h.motor[0], 1.0L);
@@ -62,22 +62,20 @@ TEST(what_is_not_finite_is_told_once_and_the_force_is_zeroed) {
         }
         assert_int_equal(drain(device, &event), 1);
         assert_int_equal(event.code, KNURL_FAULT_NOT_FINITE);
-        knurl_device_close(device);
     }
 }
 
 TEST(a_first_position_that_is_not_finite_is_none) {
     knurl_device_event event;
-    knurl_device *device = open_at(1000.0);
+    SCOPED_DEVICE *device = open_at(1000.0);
     assert_int_equal(read_at(device, (double)NAN, 0.0, 0.0), KNURL_ERROR_DEVICE_NOT_READY);
     assert_int_equal(drain(device, &event), 1);
-    knurl_device_close(device);
 }
 
 /* Every second position: a converter with a loose contact, say. The ring of events has 64 places. */
 TEST(what_is_not_finite_now_and_then_is_one_fault_until_it_has_settled) {
     knurl_device_event event;
-    knurl_device *device = open_at(1000.0);
+    SCOPED_DEVICE *device = open_at(1000.0);
     assert_int_equal(read_at(device, 0.0, 0.0, 0.0), KNURL_OK);
     for (int k = 0; k < 200; k++) {
         assert_int_equal(read_at(device, k % 2 ? 0.0 : (double)NAN, 0.0, 0.0), KNURL_ERROR_DEVICE_NOT_READY);
@@ -89,7 +87,6 @@ TEST(what_is_not_finite_now_and_then_is_one_fault_until_it_has_settled) {
     assert_int_equal(read_at(device, 0.0, 0.0, 0.0), KNURL_OK);
     assert_int_equal(read_at(device, (double)NAN, 0.0, 0.0), KNURL_ERROR_DEVICE_NOT_READY);
     assert_int_equal(drain(device, &event), 1); /* a new one */
-    knurl_device_close(device);
 }
 
 /* --- jumps --- */
@@ -103,7 +100,7 @@ TEST(the_limit_is_10_metres_a_second_and_20_mm_at_least) {
     for (size_t i = 0; i < COUNT_OF(cases); i++) {
         for (int beyond = 0; beyond < 2; beyond++) {
             knurl_device_event event;
-            knurl_device *device = open_at(cases[i].rate);
+            SCOPED_DEVICE *device = open_at(cases[i].rate);
             const double step = cases[i].limit * (beyond ? 1.01 : 0.99) / sqrt(3.0);
             assert_int_equal(read_at(device, 0.01, 0.0, 0.0), KNURL_OK);
             assert_int_equal(read_at(device, 0.01 + step, -step, step),
@@ -113,7 +110,6 @@ TEST(the_limit_is_10_metres_a_second_and_20_mm_at_least) {
                 assert_int_equal(event.code, KNURL_FAULT_JUMP);
                 CHECK_CLOSE(event.value, cases[i].limit * 1.01, 1e-9);
             }
-            knurl_device_close(device);
         }
     }
 }
@@ -122,7 +118,7 @@ TEST(where_it_then_stays_for_20_ms_is_believed) {
     static const double rates[] = {100.0, 1000.0, 10000.0};
     for (size_t i = 0; i < COUNT_OF(rates); i++) {
         knurl_device_event event;
-        knurl_device *device = open_at(rates[i]);
+        SCOPED_DEVICE *device = open_at(rates[i]);
         int without = 0;
         assert_int_equal(read_at(device, 0.0, 0.0, 0.0), KNURL_OK);
         while (read_at(device, 0.5 + 1e-5 * without, 0.0, 0.0) && without < 1000) {
@@ -131,13 +127,12 @@ TEST(where_it_then_stays_for_20_ms_is_believed) {
         assert_in_range(without, (int)(0.02 * rates[i]) - 1, (int)(0.02 * rates[i]) + 1);
         assert_int_equal(drain(device, &event), 1);
         assert_int_equal(knurl_device_is_halted(device), 1); /* for the haptic thread to release, with a ramp */
-        knurl_device_close(device);
     }
 }
 
 TEST(a_position_that_jumps_to_and_fro_is_one_fault_until_it_has_settled) {
     knurl_device_event event;
-    knurl_device *device = open_at(1000.0);
+    SCOPED_DEVICE *device = open_at(1000.0);
     assert_int_equal(read_at(device, 0.0, 0.0, 0.0), KNURL_OK);
     for (int k = 0; k < 200; k++) {
         assert_int_equal(read_at(device, k % 3 ? 0.0 : 0.05, 0.0, 0.0), KNURL_ERROR_DEVICE_NOT_READY);
@@ -150,17 +145,15 @@ TEST(a_position_that_jumps_to_and_fro_is_one_fault_until_it_has_settled) {
     assert_int_equal(read_at(device, 0.0, 0.0, 0.05), KNURL_ERROR_DEVICE_NOT_READY);
     assert_int_equal(drain(device, &event), 1);
     CHECK_CLOSE(event.value, 0.05, 1e-12);
-    knurl_device_close(device);
 }
 
 TEST(a_start_forgets_where_it_was) {
     knurl_device_event event;
-    knurl_device *device = open_at(1000.0);
+    SCOPED_DEVICE *device = open_at(1000.0);
     assert_int_equal(read_at(device, 0.0, 0.0, 0.0), KNURL_OK);
     assert_int_equal(knurl_device_start(device, 1000.0), KNURL_OK);
     assert_int_equal(read_at(device, 0.3, 0.0, 0.0), KNURL_OK);
     assert_int_equal(drain(device, &event), 0);
-    knurl_device_close(device);
 }
 
 /* --- no false alarms --- */
@@ -175,12 +168,11 @@ TEST(a_device_of_1_khz_in_a_fast_hand_is_believed_however_often_it_is_read) {
     static const double rates[] = {100.0, 130.0, 333.0, 500.0, 999.0, 1000.0, 1001.0, 1500.0, 3000.0, 7777.0, 10000.0};
     for (size_t i = 0; i < COUNT_OF(rates); i++) {
         knurl_device_event event;
-        knurl_device *device = open_at(rates[i]);
+        SCOPED_DEVICE *device = open_at(rates[i]);
         for (int k = 0; k < 3000; k++) {
             assert_int_equal(read_at(device, measured(k / rates[i], 0.001, 2.0), 0.0, 0.0), KNURL_OK);
         }
         assert_int_equal(drain(device, &event), 0);
-        knurl_device_close(device);
     }
 }
 
@@ -196,7 +188,7 @@ TEST(a_device_that_measures_slowly_is_believed_when_it_is_read_more_often) {
     static const double natives[] = {100.0, 125.0, 300.0, 3000.0};
     for (size_t i = 0; i < COUNT_OF(natives); i++) {
         knurl_device_event event;
-        knurl_device *device = NULL;
+        SCOPED_DEVICE *device = NULL;
         memset(&h, 0, sizeof h);
         knurl_device_functions f = home_functions(&h, 0);
         f.get_info = tell_native;
@@ -207,14 +199,13 @@ TEST(a_device_that_measures_slowly_is_believed_when_it_is_read_more_often) {
             assert_int_equal(read_at(device, measured(k / 1000.0, 1.0 / native, 4.0), 0.0, 0.0), KNURL_OK);
         }
         assert_int_equal(drain(device, &event), 0);
-        knurl_device_close(device);
     }
 }
 
 /* Nine times out of ten there is no position, and the one before holds. */
 TEST(a_position_that_held_for_a_while_is_left_as_fast_as_a_hand_can) {
     knurl_device_event event;
-    knurl_device *device = open_at(1000.0);
+    SCOPED_DEVICE *device = open_at(1000.0);
     for (int k = 0; k < 1000; k++) {
         knurl_device_sample sample;
         h.read_gives = k % 10 ? KNURL_ERROR_DEVICE_NOT_READY : KNURL_OK;
@@ -222,7 +213,6 @@ TEST(a_position_that_held_for_a_while_is_left_as_fast_as_a_hand_can) {
         assert_int_equal(knurl_device_read(device, &sample), KNURL_OK);
     }
     assert_int_equal(drain(device, &event), 0);
-    knurl_device_close(device);
 }
 
 /* The same of an I/O thread whose exchanges took that long: a link without its thread, and positions posted by hand. */
@@ -305,10 +295,10 @@ TEST(after_a_jump_the_loop_comes_back_by_a_ramp_and_a_first_tick) {
         surface_parts parts = surface_plane();
         knurl_loop_desc desc;
         knurl_loop *loop = NULL;
-        knurl_device *device = open_at(1000.0);
+        SCOPED_DEVICE *device = open_at(1000.0);
         parts.plane.half_extents[0] = 0.3; /* also where the jump leads to */
         set_grating(&parts, KNURL_METHOD_S2, 1000.0, 0.0, 0.0003);
-        knurl_scene *scene = scene_of(&parts);
+        SCOPED_SCENE *scene = scene_of(&parts);
         knurl_loop_desc_init(&desc, sizeof desc);
         desc.device = device;
         desc.scene = scene;
@@ -324,9 +314,7 @@ TEST(after_a_jump_the_loop_comes_back_by_a_ramp_and_a_first_tick) {
             }
             assert_int_equal(knurl_loop_step(loop, 1), KNURL_OK);
         }
-        knurl_loop_stats stats;
-        knurl_loop_stats_init(&stats, sizeof stats);
-        assert_int_equal(knurl_loop_get_stats(loop, &stats), KNURL_OK);
+        const knurl_loop_stats stats = loop_stats(loop);
         const int away = faults[i] == DOUBLE_NAN ? 30 : 20;
         assert_in_range(stats.absences, away - 1, away + 1);
         assert_int_equal(stats.ticks + stats.absences, 1500);
@@ -337,8 +325,6 @@ TEST(after_a_jump_the_loop_comes_back_by_a_ramp_and_a_first_tick) {
         assert_int_equal(seen.ticks[699].event > 20, 1); /* it was a stroke over a grating */
         check_return(100, 700);
         knurl_loop_destroy(loop);
-        knurl_scene_destroy(scene);
-        knurl_device_close(device);
     }
 }
 
@@ -346,7 +332,7 @@ TEST(after_a_jump_the_loop_comes_back_by_a_ramp_and_a_first_tick) {
 TEST(an_absent_tick_feels_nothing_and_the_next_one_is_a_first_one) {
     surface_parts parts = surface_plane();
     set_grating(&parts, KNURL_METHOD_S2, 1000.0, 0.0, 0.0003);
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     knurl_tick_output out;
     knurl_tick_input away;
     memset(&away, 0, sizeof away);
@@ -369,5 +355,4 @@ TEST(an_absent_tick_feels_nothing_and_the_next_one_is_a_first_one) {
     knurl_hip_counts counts;
     assert_int_equal(knurl_scene_get_tick(scene, 0, NULL, &counts), KNURL_OK);
     assert_int_equal(counts.non_finite_ticks, 0);
-    knurl_scene_destroy(scene);
 }

@@ -71,13 +71,11 @@ TEST(forces_are_no_stronger_than_it_can_play) {
     knurl_device_sample sample;
     double told[3];
     double others[3];
-    knurl_device_info info;
     knurl_device *device = open_released();
     assert_int_equal(run(device, 10, force, &sample), KNURL_OK);
     dhd_stub.ask(told, others);
     CHECK_CLOSE(told[1], 12.0, 1e-12);
-    knurl_device_info_init(&info, sizeof info);
-    assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
+    const knurl_device_info info = device_info(device);
     assert_string_equal(info.name, "Force Dimension omega.3");
     CHECK_CLOSE(info.max_stiffness, 5000.0, 1e-9);
     dhd_double.close(device);
@@ -92,7 +90,6 @@ TEST(every_type_is_known_by_its_force_and_stiffness) {
                  {107, 12, 4000}, {206, 12, 4000}, {108, 12, 4000}, {109, 12, 4000}, {131, 12, 4000},
                  {132, 12, 4000}, {203, 12, 4000}, {60, 8, 3000},   {91, 8, 3000}};
     for (size_t i = 0; i < COUNT_OF(cases); i++) {
-        knurl_device_info info;
         knurl_device_sample sample;
         knurl_device *device = open_released();
         dhd_stub.set(STUB_DHD_TYPE, cases[i].type);
@@ -101,8 +98,7 @@ TEST(every_type_is_known_by_its_force_and_stiffness) {
         dhd_double.close(device);
         dhd_double.inject(DOUBLE_WELL);
         assert_int_equal(knurl_device_open("dhd", &device), KNURL_OK);
-        knurl_device_info_init(&info, sizeof info);
-        assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
+        const knurl_device_info info = device_info(device);
         if (info.max_force != cases[i].max_force || info.max_stiffness != cases[i].max_stiffness) {
             fail_msg("type %d: %g N, %g N/m", cases[i].type, info.max_force, info.max_stiffness);
         }

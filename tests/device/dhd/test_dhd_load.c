@@ -13,12 +13,11 @@ TEST(without_the_library_the_tool_says_what_helps) {
 
 TEST(a_plate_is_felt_with_it) {
     assert_int_equal(setenv("KNURL_DHD_LIBRARY", KNURL_TEST_STUB_DHD, 1), 0);
-    process p = RUN_TOOL("run", plate, "--device", "dhd", "--seconds", "1");
+    SCOPED_PROCESS p = RUN_TOOL("run", plate, "--device", "dhd", "--seconds", "1");
     if (p.exit_code != 0) {
         fail_msg("exit %d, signal %d: %s", p.exit_code, p.signal, p.err);
     }
     assert_non_null(strstr(p.out, "Force Dimension omega.3"));
     assert_true(json_number_of(p.out, "contact_s") > 0.3);
     assert_true(json_number_of(p.out, "force_max_n") > 0.1);
-    process_free(&p);
 }

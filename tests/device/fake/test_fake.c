@@ -90,14 +90,13 @@ TEST(every_key_that_is_listed_is_taken_with_its_default) {
     }
     assert_true(keys >= 10);
     knurl_device *device = open_device(uri);
-    knurl_device *standard = open_device("fake");
+    SCOPED_DEVICE *standard = open_device("fake");
     for (int tick = 0; tick < 500; tick++) {
         const knurl_device_sample one = read_one(device);
         const knurl_device_sample other = read_one(standard);
         assert_memory_equal(&one, &other, sizeof one);
     }
     knurl_device_close(device);
-    knurl_device_close(standard);
 }
 
 TEST(what_is_no_device_is_unknown) {
@@ -132,10 +131,8 @@ TEST(a_listing_names_every_kind_of_device_and_why_it_cannot_be_had) {
 }
 
 TEST(the_fake_device_is_a_touch) {
-    knurl_device_info info;
-    knurl_device *device = open_device("fake");
-    knurl_device_info_init(&info, sizeof info);
-    assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
+    SCOPED_DEVICE *device = open_device("fake");
+    const knurl_device_info info = device_info(device);
     CHECK_SAME(info.workspace_min[0], -0.08);
     CHECK_SAME(info.workspace_max[0], 0.08);
     CHECK_SAME(info.workspace_min[1], -0.06);
@@ -150,14 +147,11 @@ TEST(the_fake_device_is_a_touch) {
     knurl_device_info untouched;
     memset(&untouched, 0, sizeof untouched);
     CHECK_REFUSED(knurl_device_get_info(device, &untouched), KNURL_ERROR_ARGUMENT, untouched);
-    knurl_device_close(device);
 }
 
 TEST(a_name_ends_in_whatever_an_older_caller_has_of_it) {
-    knurl_device_info full;
-    knurl_device *device = open_device("fake");
-    knurl_device_info_init(&full, sizeof full);
-    assert_int_equal(knurl_device_get_info(device, &full), KNURL_OK);
+    SCOPED_DEVICE *device = open_device("fake");
+    const knurl_device_info full = device_info(device);
     for (uint32_t size = 9; size <= offsetof(knurl_device_info, name) + sizeof full.name; size++) {
         knurl_device_info older;
         memset(&older, 0x77, sizeof older);
@@ -167,17 +161,15 @@ TEST(a_name_ends_in_whatever_an_older_caller_has_of_it) {
         assert_non_null(memchr(older.name, '\0', room));
         assert_memory_equal(older.name, full.name, strlen(older.name));
     }
-    knurl_device_close(device);
 }
 
 TEST(an_update_rate_that_is_none_is_refused) {
     static const double rates[] = {0.0, -1.0, 1e9, 0.5, NAN, HUGE_VAL};
-    knurl_device *device = open_device("fake");
+    SCOPED_DEVICE *device = open_device("fake");
     for (size_t i = 0; i < COUNT_OF(rates); i++) {
         char nothing = 0;
         CHECK_REFUSED(knurl_device_start(device, rates[i]), KNURL_ERROR_ARGUMENT, nothing);
     }
-    knurl_device_close(device);
 }
 
 /* --- forces --- */
@@ -186,20 +178,19 @@ TEST(a_force_shows_after_the_tick_and_its_delay) {
     for (int delay = 0; delay <= 16; delay++) {
         char uri[200];
         (void)snprintf(uri, sizeof uri, FREE "&delay=%d", delay);
-        knurl_device *device = open_device(uri);
+        SCOPED_DEVICE *device = open_device(uri);
         stand(device);
         for (int tick = 0; tick < 40; tick++) {
             const double x = read_one(device).position[0];
             assert_int_equal(x > 0.0, tick > 10 + delay);
             write_x(device, tick == 10 ? 1.0 : 0.0);
         }
-        knurl_device_close(device);
     }
 }
 
 TEST(a_force_is_shortened_to_the_limit_and_keeps_its_direction) {
     static const double far_too_much[3] = {30.0, 0.0, -40.0};
-    knurl_device *device = open_device(FREE "&max_force=2&delay=0&width=1&depth=1");
+    SCOPED_DEVICE *device = open_device(FREE "&max_force=2&delay=0&width=1&depth=1");
     stand(device);
     for (int tick = 0; tick < 100; tick++) {
         (void)read_one(device);
@@ -208,25 +199,23 @@ TEST(a_force_is_shortened_to_the_limit_and_keeps_its_direction) {
     const knurl_device_sample sample = read_one(device);
     CHECK_CLOSE(sample.position[0], 0.5 * 1.2 / 0.05 * 0.01, 24.0 * 0.1 / RATE);
     CHECK_CLOSE(sample.position[2] / sample.position[0], -1.6 / 1.2, 1e-12);
-    knurl_device_close(device);
 }
 
 TEST(a_force_that_is_not_finite_is_written_as_none) {
     static const double bad[][3] = {{NAN, 0, 0}, {1, NAN, 1}, {HUGE_VAL, 0, 0}, {0, -HUGE_VAL, 0}, {1, 1, HUGE_VAL}};
     for (size_t i = 0; i < COUNT_OF(bad); i++) {
-        knurl_device *device = open_device(FREE "&delay=0");
+        SCOPED_DEVICE *device = open_device(FREE "&delay=0");
         stand(device);
         const knurl_device_sample before = read_one(device);
         for (int tick = 0; tick < 10; tick++) {
             assert_int_equal(knurl_device_write(device, bad[i]), KNURL_OK);
             assert_memory_equal(read_one(device).position, before.position, sizeof before.position);
         }
-        knurl_device_close(device);
     }
 }
 
 TEST(while_halted_a_force_counts_nothing_until_it_is_released) {
-    knurl_device *device = open_device(FREE "&delay=0");
+    SCOPED_DEVICE *device = open_device(FREE "&delay=0");
     stand(device);
     assert_int_equal(knurl_device_is_halted(device), 0);
     knurl_device_halt(device);
@@ -241,7 +230,6 @@ TEST(while_halted_a_force_counts_nothing_until_it_is_released) {
     CHECK_SAME(read_one(device).position[0], 0.0L); /* what was written during the halt is not caught up with */
     write_x(device, 1.0);
     assert_true(read_one(device).position[0] > 0.0);
-    knurl_device_close(device);
 }
 
 /* At once, whatever the haptic thread does: also what is played, and what is still under way, when nobody writes. */
@@ -249,7 +237,7 @@ TEST(a_halt_zeroes_the_force_at_once) {
     for (int delay = 0; delay <= 3; delay++) {
         char uri[200];
         (void)snprintf(uri, sizeof uri, FREE "&delay=%d", delay);
-        knurl_device *device = open_device(uri);
+        SCOPED_DEVICE *device = open_device(uri);
         stand(device);
         for (int tick = 0; tick < 20; tick++) {
             (void)read_one(device);
@@ -264,13 +252,12 @@ TEST(a_halt_zeroes_the_force_at_once) {
             CHECK_CLOSE(now - last, step, 1e-12);
             last = now;
         }
-        knurl_device_close(device);
     }
 }
 
 TEST(a_lost_device_says_so_when_read_and_when_written_until_it_is_started_again) {
     static const double force[3] = {1.0, 0.0, 0.0};
-    knurl_device *device = open_device("fake:?lose_at=0.1");
+    SCOPED_DEVICE *device = open_device("fake:?lose_at=0.1");
     for (int turn = 0; turn < 2; turn++) {
         assert_int_equal(knurl_device_start(device, RATE), KNURL_OK);
         for (int tick = 0; tick < 100; tick++) { /* 0 to 0.099 s */
@@ -288,28 +275,24 @@ TEST(a_lost_device_says_so_when_read_and_when_written_until_it_is_started_again)
             assert_int_equal(knurl_device_write(device, force), KNURL_ERROR_DEVICE_LOST);
         }
     }
-    knurl_device_close(device);
 }
 
 TEST(a_press_of_its_button_lasts_a_tenth_of_a_second_and_is_told_by_the_status) {
-    knurl_device *device = open_device("fake:?press_at=0.0505");
+    SCOPED_DEVICE *device = open_device("fake:?press_at=0.0505");
     assert_int_equal(knurl_device_start(device, RATE), KNURL_OK);
     for (int tick = 0; tick < 300; tick++) {
-        knurl_device_status status;
         const uint32_t pressed = tick > 50 && tick <= 150;
-        knurl_device_status_init(&status, sizeof status);
         assert_int_equal(read_one(device).buttons, pressed);
-        assert_int_equal(knurl_device_get_status(device, &status), KNURL_OK);
+        const knurl_device_status status = device_status(device);
         assert_int_equal(status.buttons, pressed);
     }
-    knurl_device_close(device);
 }
 
 /* --- the plant behind the device --- */
 
 TEST(a_constant_force_holds_the_hand_off_its_target_by_force_over_stiffness) {
     static const double force[3] = {0.7, 1.4, -0.35};
-    knurl_device *device = open_device("fake:?coulomb=0&tremor=0&resolution=0&hand_stiffness=700");
+    SCOPED_DEVICE *device = open_device("fake:?coulomb=0&tremor=0&resolution=0&hand_stiffness=700");
     stand(device);
     knurl_device_sample sample = read_one(device);
     for (int tick = 0; tick < 3000; tick++) {
@@ -323,7 +306,6 @@ TEST(a_constant_force_holds_the_hand_off_its_target_by_force_over_stiffness) {
     for (size_t i = 0; i < COUNT_OF(sample.reserved); i++) {
         assert_int_equal(sample.reserved[i], 0);
     }
-    knurl_device_close(device);
 }
 
 TEST(positions_are_multiples_of_the_resolution) {
@@ -332,7 +314,7 @@ TEST(positions_are_multiples_of_the_resolution) {
         double resolution;
     } devices[] = {{"fake", 0.055e-3}, {"fake:?resolution=0.001", 0.001}, {"fake:?resolution=1e-6", 1e-6}};
     for (size_t i = 0; i < COUNT_OF(devices); i++) {
-        knurl_device *device = open_device(devices[i].uri);
+        SCOPED_DEVICE *device = open_device(devices[i].uri);
         for (int tick = 0; tick < 2000; tick++) {
             const knurl_device_sample sample = read_one(device);
             for (int axis = 0; axis < 3; axis++) {
@@ -340,6 +322,5 @@ TEST(positions_are_multiples_of_the_resolution) {
                 CHECK_CLOSE(counts, round(counts), 1e-7);
             }
         }
-        knurl_device_close(device);
     }
 }

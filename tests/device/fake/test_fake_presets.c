@@ -8,10 +8,8 @@
 #include <stdio.h>
 
 static knurl_device_info info_of(const char *uri) {
-    knurl_device_info info;
     knurl_device *device = open_device(uri);
-    knurl_device_info_init(&info, sizeof info);
-    assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
+    const knurl_device_info info = device_info(device);
     knurl_device_close(device);
     return info;
 }
@@ -124,7 +122,7 @@ TEST(a_preset_that_is_none_is_refused) {
 
 /* x = F t^2 / 2 (m + hand's m). */
 TEST(the_hands_mass_moves_with_the_device) {
-    knurl_device *device = open_device("fake:?preset=ideal&hand_stiffness=0&hand_damping=0&mass=0.05&hand_mass=0.15");
+    SCOPED_DEVICE *device = open_device("fake:?preset=ideal&hand_stiffness=0&hand_damping=0&mass=0.05&hand_mass=0.15");
     static const double force[3] = {0.2, 0.0, 0.0};
     stand(device);
     for (int tick = 0; tick <= 200; tick++) {
@@ -132,11 +130,10 @@ TEST(the_hands_mass_moves_with_the_device) {
         CHECK_CLOSE(truth_of(device).position[0], 0.5 * 1e-6 * tick * tick, 1e-12);
         assert_int_equal(knurl_device_write(device, force), KNURL_OK);
     }
-    knurl_device_close(device);
 }
 
 TEST(a_reading_is_the_true_position_to_the_nearest_quantum) {
-    knurl_device *device = open_device("fake");
+    SCOPED_DEVICE *device = open_device("fake");
     for (int tick = 0; tick < 1000; tick++) {
         const knurl_device_sample sample = read_one(device);
         const knurl_fake_truth truth = truth_of(device);
@@ -144,7 +141,6 @@ TEST(a_reading_is_the_true_position_to_the_nearest_quantum) {
             CHECK_CLOSE(sample.position[axis], truth.position[axis], 0.5 * 0.055e-3 * (1.0 + 1e-9));
         }
     }
-    knurl_device_close(device);
 }
 
 /* Written at tick n, it acts from the reading n + 1 + delay on; limited. */
@@ -152,7 +148,7 @@ TEST(the_motors_force_is_the_one_that_acted_delayed_and_limited) {
     for (int delay = 0; delay <= 4; delay++) {
         char uri[100];
         (void)snprintf(uri, sizeof uri, "fake:?delay=%d&tremor=0", delay);
-        knurl_device *device = open_device(uri);
+        SCOPED_DEVICE *device = open_device(uri);
         stand(device);
         for (int tick = 0; tick < 40; tick++) {
             (void)read_one(device);
@@ -161,14 +157,13 @@ TEST(the_motors_force_is_the_one_that_acted_delayed_and_limited) {
             const double force[3] = {0.0, tick % 7 == 3 ? 9.0 : 0.5, 0.0};
             assert_int_equal(knurl_device_write(device, force), KNURL_OK);
         }
-        knurl_device_close(device);
     }
 }
 
 /* At rest the hand pulls with what the motors push with; without dry friction all of it. */
 TEST(the_hands_force_balances_the_motors_at_rest) {
     static const double force[3] = {0.3, 0.8, -0.2};
-    knurl_device *device = open_device("fake:?coulomb=0&tremor=0&exact=1");
+    SCOPED_DEVICE *device = open_device("fake:?coulomb=0&tremor=0&exact=1");
     stand(device);
     for (int tick = 0; tick < 3000; tick++) {
         (void)read_one(device);
@@ -179,12 +174,11 @@ TEST(the_hands_force_balances_the_motors_at_rest) {
         CHECK_CLOSE(truth.hand[axis], -force[axis], 1e-9);
         CHECK_CLOSE(truth.velocity[axis], 0.0, 1e-12);
     }
-    knurl_device_close(device);
 }
 
 /* The works of motors, hand and viscous friction are what the mass has: a run under a force that swings. */
 TEST(the_true_state_keeps_the_books_of_energy) {
-    knurl_device *device = open_device("fake:?preset=ideal&viscous=0.4&mass=0.1");
+    SCOPED_DEVICE *device = open_device("fake:?preset=ideal&viscous=0.4&mass=0.1");
     stand(device);
     assert_int_equal(knurl_device_start(device, 10000.0), KNURL_OK);
     (void)read_one(device);
@@ -204,30 +198,27 @@ TEST(the_true_state_keeps_the_books_of_energy) {
     }
     CHECK_CLOSE(motors + hand, taken + 0.05 * last.velocity[1] * last.velocity[1], 3e-3 * taken); /* trapezia */
     assert_true(taken > 1e-4);
-    knurl_device_close(device);
 }
 
 TEST(a_trace_has_no_true_state) {
     static const double rows[8] = {0.0, 0.0, 0.0, 0.0, 1.0, 0.1, 0.0, 0.0};
-    knurl_device *device = open_device("fake");
+    SCOPED_DEVICE *device = open_device("fake");
     knurl_fake_truth truth;
     memset(&truth, 0x5a, sizeof truth);
     const knurl_fake_truth before = truth;
     assert_int_equal(knurl_fake_set_trace(device, rows, 2), KNURL_OK);
     assert_int_equal(knurl_fake_get_truth(device, &truth), KNURL_ERROR_UNSUPPORTED);
     assert_memory_equal(&truth, &before, sizeof truth);
-    knurl_device_close(device);
 }
 
 /* What this once did: grow without bound. */
 TEST(a_light_device_in_a_stiff_hand_stays_where_it_is_held) {
-    knurl_device *device = open_device("fake:?mass=0.001&hand_damping=100&tremor=0&coulomb=0");
+    SCOPED_DEVICE *device = open_device("fake:?mass=0.001&hand_damping=100&tremor=0&coulomb=0");
     stand(device);
     for (int tick = 0; tick < 2000; tick++) {
         (void)read_one(device);
     }
     CHECK_CLOSE(truth_of(device).position[1], -0.001, 1e-6);
-    knurl_device_close(device);
 }
 
 /* A host may have set its user's locale, in which strtod() wants a comma. */
@@ -241,14 +232,11 @@ TEST(numbers_are_read_alike_in_every_locale) {
         print_message("skipped: no locale with a comma in its numbers is installed\n");
         skip();
     }
-    knurl_device *device = NULL;
-    knurl_device_info info;
+    SCOPED_DEVICE *device = NULL;
     const knurl_result result = knurl_device_open("fake:?preset=falcon&max_force=7.25", &device);
     (void)setlocale(LC_ALL, "C");
     assert_int_equal(result, KNURL_OK);
-    knurl_device_info_init(&info, sizeof info);
-    assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
+    const knurl_device_info info = device_info(device);
     assert_true(info.max_force == 7.25);
     assert_true(info.workspace_max[0] < 0.06); /* the Falcon's, not the Touch's 0.08 */
-    knurl_device_close(device);
 }

@@ -249,7 +249,7 @@ TEST(strokes_have_the_names_that_the_tool_takes) {
 }
 
 TEST(a_bad_stroke_is_refused) {
-    knurl_device *device = open_device("fake");
+    SCOPED_DEVICE *device = open_device("fake");
     for (int i = 0; i < 18; i++) {
         knurl_stroke_desc desc = make_stroke(KNURL_STROKE_SWEEP);
         double *const fields[] = {&desc.centre[0], &desc.x[1],  &desc.normal[2], &desc.reach[0],
@@ -266,7 +266,6 @@ TEST(a_bad_stroke_is_refused) {
     knurl_stroke_desc skew = make_stroke(KNURL_STROKE_LINE);
     memcpy(skew.normal, along_x, sizeof along_x);
     CHECK_REFUSED(knurl_fake_set_stroke(device, &skew), KNURL_ERROR_ARGUMENT, skew);
-    knurl_device_close(device);
 }
 
 /* --- through the device --- */
@@ -283,14 +282,13 @@ static knurl_device *start_device(const char *uri, int32_t stroke) {
 
 TEST(a_stroke_holds_from_the_next_start) {
     knurl_stroke_desc desc;
-    knurl_device *device = open_device("fake:?tremor=0&resolution=0");
+    SCOPED_DEVICE *device = open_device("fake:?tremor=0&resolution=0");
     knurl_stroke_desc_init(&desc, sizeof desc);
     desc.centre[1] = 0.02;
     assert_int_equal(knurl_fake_set_stroke(device, &desc), KNURL_OK);
     CHECK_CLOSE(read_one(device).position[1], 0.005, 1e-9);
     assert_int_equal(knurl_device_start(device, RATE), KNURL_OK);
     CHECK_CLOSE(read_one(device).position[1], 0.025, 1e-9);
-    knurl_device_close(device);
 }
 
 /* The device trails its hand by the friction that holds it back, (Fc + b v)/k, and by the integrator's v h. */
@@ -298,7 +296,7 @@ TEST(the_device_follows_the_hand) {
     knurl_stroke_desc desc;
     knurl_stroke_desc_init(&desc, sizeof desc);
     knurl_hand hand = make_hand(&desc, 0.0);
-    knurl_device *device = start_device("fake:?tremor=0&resolution=0", KNURL_STROKE_LINE);
+    SCOPED_DEVICE *device = start_device("fake:?tremor=0&resolution=0", KNURL_STROKE_LINE);
     for (int tick = 0; tick <= 600; tick++) { /* to 35 of 50 mm, well before the turn */
         double target[3];
         knurl_hand_target(&hand, tick * DT, DT, target);
@@ -309,7 +307,6 @@ TEST(the_device_follows_the_hand) {
             CHECK_CLOSE(sample.position[2], 0.0, 1e-12);
         }
     }
-    knurl_device_close(device);
 }
 
 static int same_sample(const knurl_device_sample *a, const knurl_device_sample *b) {
@@ -345,7 +342,7 @@ TEST(the_same_seed_gives_the_same_positions_and_another_one_others) {
 TEST(starting_again_plays_the_same_once_more) {
     static const double force[3] = {0.5, 0.5, 0.0};
     static knurl_device_sample first[1000];
-    knurl_device *device = start_device("fake", KNURL_STROKE_LINE);
+    SCOPED_DEVICE *device = start_device("fake", KNURL_STROKE_LINE);
     for (int turn = 0; turn < 2; turn++) {
         assert_int_equal(knurl_device_start(device, RATE), KNURL_OK);
         for (size_t tick = 0; tick < COUNT_OF(first); tick++) {
@@ -355,7 +352,6 @@ TEST(starting_again_plays_the_same_once_more) {
             assert_int_equal(knurl_device_write(device, force), KNURL_OK);
         }
     }
-    knurl_device_close(device);
 }
 
 /* The default hand is stable at every rate that a loop allows: 0.26 N of friction over 700 N/m is where it may stand.
@@ -363,7 +359,7 @@ TEST(starting_again_plays_the_same_once_more) {
 TEST(the_default_hand_comes_to_rest_at_its_target_at_every_rate) {
     static const double rates[] = {100.0, 300.0, 1000.0, 3000.0, 10000.0};
     for (size_t i = 0; i < COUNT_OF(rates); i++) {
-        knurl_device *device = start_device("fake:?tremor=0&resolution=0", KNURL_STROKE_REST);
+        SCOPED_DEVICE *device = start_device("fake:?tremor=0&resolution=0", KNURL_STROKE_REST);
         assert_int_equal(knurl_device_start(device, rates[i]), KNURL_OK);
         double last = 0.0;
         for (int tick = 0; tick < (int)(2.0 * rates[i]); tick++) {
@@ -371,7 +367,6 @@ TEST(the_default_hand_comes_to_rest_at_its_target_at_every_rate) {
         }
         CHECK_CLOSE(last, -0.001, 0.26 / 700.0 + 1e-9);
         CHECK_CLOSE(read_one(device).position[1], last, 1e-12);
-        knurl_device_close(device);
     }
 }
 
@@ -421,7 +416,7 @@ TEST(wrong_paths_are_refused) {
     static double rows[3][6];
     static double still[3][6];
     knurl_stroke_desc stroke;
-    knurl_device *device = open_device("fake");
+    SCOPED_DEVICE *device = open_device("fake");
     write_arc(rows, 3);
     for (uint32_t i = 0; i < 3; i++) {
         memcpy(still[i], rows[0], sizeof rows[0]);
@@ -436,5 +431,4 @@ TEST(wrong_paths_are_refused) {
         assert_int_equal(knurl_fake_set_stroke(device, &stroke), KNURL_ERROR_ARGUMENT);
         check_message("stroke.path");
     }
-    knurl_device_close(device);
 }

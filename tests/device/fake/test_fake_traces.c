@@ -20,7 +20,7 @@ static knurl_device *open_trace(const char *uri, const double rows[][4], size_t 
 
 TEST(a_trace_is_played_exactly_interpolated_between_its_rows_and_held_at_its_ends) {
     static const double pull[3] = {3.0, 3.0, 3.0};
-    knurl_device *device = open_trace("fake", way, COUNT_OF(way));
+    SCOPED_DEVICE *device = open_trace("fake", way, COUNT_OF(way));
     for (int tick = 0; tick < 60; tick++) {
         double expected[3];
         const double *from = tick < 21 ? way[0] : way[4];
@@ -35,7 +35,6 @@ TEST(a_trace_is_played_exactly_interpolated_between_its_rows_and_held_at_its_end
         }
         assert_int_equal(knurl_device_write(device, pull), KNURL_OK); /* no force moves it */
     }
-    knurl_device_close(device);
 }
 
 TEST(a_trace_of_a_row_a_tick_is_told_to_the_last_digit) {
@@ -47,25 +46,22 @@ TEST(a_trace_of_a_row_a_tick_is_told_to_the_last_digit) {
             rows[i][axis] = random_between(&random, -0.05, 0.05);
         }
     }
-    knurl_device *device = open_trace("fake", (const double (*)[4])rows, COUNT_OF(rows));
+    SCOPED_DEVICE *device = open_trace("fake", (const double (*)[4])rows, COUNT_OF(rows));
     for (size_t tick = 0; tick < COUNT_OF(rows); tick++) {
         const knurl_device_sample sample = read_one(device);
         for (int axis = 0; axis < 3; axis++) { /* not quantised: 55 um would show */
             CHECK_CLOSE(sample.position[axis], rows[tick][axis + 1], 1e-13);
         }
     }
-    knurl_device_close(device);
 }
 
 TEST(a_trace_is_quantised_only_where_the_uri_names_a_resolution) {
-    knurl_device_info info;
-    knurl_device_info_init(&info, sizeof info);
     knurl_device *device = open_trace("fake", way, COUNT_OF(way));
-    assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
+    knurl_device_info info = device_info(device);
     CHECK_SAME(info.resolution, 0.0L);
     knurl_device_close(device);
     device = open_trace("fake:?resolution=0.0001", way, COUNT_OF(way));
-    assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
+    info = device_info(device);
     CHECK_SAME(info.resolution, 0.0001);
     knurl_device_sample sample = read_one(device);
     for (int tick = 1; tick < 60; tick++) {
@@ -82,7 +78,7 @@ TEST(a_trace_is_quantised_only_where_the_uri_names_a_resolution) {
 
 TEST(a_trace_is_copied_and_starts_anew_with_its_device) {
     double rows[3][4] = {{0.0, 0.01, 0.0, 0.0}, {0.2, 0.012, 0.0, 0.0}, {1.0, 0.02, 0.0, 0.0}};
-    knurl_device *device = open_trace("fake", (const double (*)[4])rows, COUNT_OF(rows));
+    SCOPED_DEVICE *device = open_trace("fake", (const double (*)[4])rows, COUNT_OF(rows));
     memset(rows, 0, sizeof rows);
     for (int turn = 0; turn < 2; turn++) {
         assert_int_equal(knurl_device_start(device, RATE), KNURL_OK);
@@ -92,12 +88,11 @@ TEST(a_trace_is_copied_and_starts_anew_with_its_device) {
     }
     stand(device); /* a stroke brings the hand back */
     CHECK_CLOSE(read_one(device).position[0], 0.0, 1e-3);
-    knurl_device_close(device);
 }
 
 TEST(a_bad_trace_is_refused_in_a_sentence_that_names_its_row) {
     static const double flaws[] = {NAN, HUGE_VAL, -HUGE_VAL};
-    knurl_device *device = open_device("fake");
+    SCOPED_DEVICE *device = open_device("fake");
     double rows[3][4] = {{0.0, 0.0, 0.0, 0.0}, {0.001, 0.0, 0.0, 0.0}, {0.002, 0.0, 0.0, 0.0}};
     for (size_t i = 0; i < 3 * COUNT_OF(flaws) * 4; i++) {
         char row[16];
@@ -114,5 +109,4 @@ TEST(a_bad_trace_is_refused_in_a_sentence_that_names_its_row) {
     assert_non_null(strstr(knurl_error_message(), "row 3"));
     CHECK_REFUSED(knurl_fake_set_trace(device, rows[0], 0), KNURL_ERROR_ARGUMENT, rows);
     CHECK_REFUSED(knurl_fake_set_trace(device, NULL, 3), KNURL_ERROR_ARGUMENT, rows);
-    knurl_device_close(device);
 }

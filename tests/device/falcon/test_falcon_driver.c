@@ -60,15 +60,13 @@ TEST(no_force_is_stronger_than_was_asked_for_with_any_gain_that_the_device_may_h
 
 TEST(a_gain_that_was_weighed_can_be_set_and_is_told) {
     const double force[3] = {0.0, 0.0, 1.5};
-    knurl_device_info info;
-    knurl_device_info_init(&info, sizeof info);
     begin();
     falcon_sim_put(&fake.sim, 0.0, 0.0, 0.0);
     fake.sim.gain = 0.5;
     knurl_device *device = open_ready_with("?gain=0.5");
     (void)run(device, 40, force);
     CHECK_CLOSE(falcon_fake_look(&fake).force[2], 1.5, 0.02);
-    assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
+    const knurl_device_info info = device_info(device);
     assert_string_equal(info.name, "Novint Falcon, gain 0.5");
     close_fake(device);
 }
@@ -282,11 +280,9 @@ TEST(an_image_may_be_named_by_the_environment) {
 }
 
 TEST(a_device_says_what_it_is) {
-    knurl_device_info info;
-    knurl_device_info_init(&info, sizeof info);
     begin();
     knurl_device *device = open_ready();
-    assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
+    const knurl_device_info info = device_info(device);
     assert_string_equal(info.name, "Novint Falcon, gain 0.35 (not weighed)");
     CHECK_CLOSE(info.max_force, 8.9, 1e-12);
     CHECK_CLOSE(info.native_rate, 1000.0, 1e-12);

@@ -9,9 +9,7 @@ TEST(answers_in_pieces_change_nothing) {
     falcon_fake_inject(&fake, DOUBLE_SPLIT);
     (void)run(device, 20, no_force);
     const outcome o = run(device, 200, no_force);
-    knurl_device_status status;
-    knurl_device_status_init(&status, sizeof status);
-    assert_int_equal(knurl_device_get_status(device, &status), KNURL_OK);
+    const knurl_device_status status = device_status(device);
     assert_int_equal(o.not_ready + o.lost, 0);
     assert_int_equal(events_of(device, KNURL_FAULT_CORRUPT, &others), 0);
     assert_int_equal(others, 0);
@@ -124,9 +122,7 @@ TEST(random_bytes_are_counted_and_make_no_position) {
     (void)run(device, 30, no_force);
     falcon_fake_inject(&fake, DOUBLE_CORRUPT);
     const outcome o = run(device, 300, no_force);
-    knurl_device_status status;
-    knurl_device_status_init(&status, sizeof status);
-    assert_int_equal(knurl_device_get_status(device, &status), KNURL_OK);
+    const knurl_device_status status = device_status(device);
     assert_true(status.bad_bytes >= 16 * 20);
     assert_int_equal(o.lost, 0);
     assert_true(o.step < 1e-12);

@@ -38,10 +38,9 @@ static void check_felt(process *p) {
 }
 
 TEST(a_falcon_is_among_the_devices) {
-    process p = run_with_falcon(NO_OPTIONS, ARGUMENTS("devices", "--json"));
+    SCOPED_PROCESS p = run_with_falcon(NO_OPTIONS, ARGUMENTS("devices", "--json"));
     check_done(&p);
     assert_non_null(strstr(p.out, "{\"uri\": \"falcon\", \"name\": \"Novint Falcon\", \"unusable\": \"\"}"));
-    process_free(&p);
 }
 
 /* What stands below "uri" in the tool's listing. */
@@ -65,7 +64,7 @@ TEST(a_hanging_library_a_garbage_handle_and_a_busy_falcon_are_a_line_each_within
         struct timespec end;
         assert_int_equal(setenv("KNURL_STUB_HD", wishes[i], 1), 0);
         (void)clock_gettime(CLOCK_MONOTONIC, &begin);
-        process p = run_with_falcon(OPTIONS("--busy"), ARGUMENTS("devices"));
+        SCOPED_PROCESS p = run_with_falcon(OPTIONS("--busy"), ARGUMENTS("devices"));
         (void)clock_gettime(CLOCK_MONOTONIC, &end);
         check_done(&p);
         const char *touch = line_below(p.out, "\ntouch");
@@ -73,7 +72,6 @@ TEST(a_hanging_library_a_garbage_handle_and_a_busy_falcon_are_a_line_each_within
         assert_true(strstr(touch, words[i]) && strstr(touch, words[i]) < strchr(touch, '\n'));
         assert_true(strstr(falcon, "it is in use") && strstr(falcon, "it is in use") < strchr(falcon, '\n'));
         assert_true((double)(end.tv_sec - begin.tv_sec) + 1e-9 * (double)(end.tv_nsec - begin.tv_nsec) < limit);
-        process_free(&p);
     }
     (void)unsetenv("KNURL_STUB_HD");
     (void)unsetenv("KNURL_HD_LIBRARY");
@@ -132,19 +130,17 @@ TEST(seconds_are_seconds_also_with_a_device_that_has_no_position_most_of_the_tim
 }
 
 TEST(a_run_without_any_position_has_failed) {
-    process p = run_with_falcon(OPTIONS("--unhomed", "1000000000"),
-                                ARGUMENTS("run", plate, "--device", "falcon", "--seconds", "0.5"));
+    SCOPED_PROCESS p = run_with_falcon(OPTIONS("--unhomed", "1000000000"),
+                                       ARGUMENTS("run", plate, "--device", "falcon", "--seconds", "0.5"));
     assert_int_equal(p.exit_code, 1);
     assert_non_null(strstr(p.err, "the device gave no position within 0.5 s"));
-    process_free(&p);
 }
 
 TEST(a_cable_that_is_pulled_ends_the_run_with_a_sentence) {
-    process p = run_with_falcon(OPTIONS("--unplug-after", "0.3"),
-                                ARGUMENTS("run", plate, "--device", "falcon", "--seconds", "5"));
+    SCOPED_PROCESS p = run_with_falcon(OPTIONS("--unplug-after", "0.3"),
+                                       ARGUMENTS("run", plate, "--device", "falcon", "--seconds", "5"));
     assert_int_equal(p.exit_code, 1);
     assert_non_null(strstr(p.err, "lost"));
-    process_free(&p);
 }
 
 SUITE_FIXTURES(make_folder, remove_folder)

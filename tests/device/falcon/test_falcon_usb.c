@@ -45,15 +45,13 @@ static int run(knurl_device *device, int ms, double stiffness, int *lost) {
 
 /* Until so many more positions have come, whose rate is the emulation's and the machine's; it may not get lost. */
 static void run_until(knurl_device *device, uint64_t positions, double stiffness) {
-    knurl_device_status status;
-    knurl_device_status_init(&status, sizeof status);
-    assert_int_equal(knurl_device_get_status(device, &status), KNURL_OK);
+    knurl_device_status status = device_status(device);
     const uint64_t enough = status.exchanges + positions;
     for (int i = 0; i < 500 && status.exchanges < enough; i++) {
         int lost = 0;
         (void)run(device, 20, stiffness, &lost);
         assert_int_equal(lost, 0);
-        assert_int_equal(knurl_device_get_status(device, &status), KNURL_OK);
+        status = device_status(device);
     }
     assert_true(status.exchanges >= enough);
 }
@@ -83,9 +81,7 @@ TEST(a_loop_over_usb_holds_the_hand_off_the_floor) {
     const int64_t begin = knurl_system_now_ns();
     run_until(device, 500, 400.0); /* the simulated hand goes on by a millisecond with each */
     const double seconds = 1e-9 * (double)(knurl_system_now_ns() - begin);
-    knurl_device_status status;
-    knurl_device_status_init(&status, sizeof status);
-    assert_int_equal(knurl_device_get_status(device, &status), KNURL_OK);
+    const knurl_device_status status = device_status(device);
     const falcon_sim sim = falcon_emulated_look();
     print_message("%.0f exchanges a second, median %.2f ms, 99 %% within %.2f ms\n", (double)status.exchanges / seconds,
                   1e-6 * status.exchange_ns_p50, 1e-6 * status.exchange_ns_p99);
@@ -260,7 +256,7 @@ TEST(with_a_guard_it_works_and_is_free_again_and_one_that_is_killed_is_told) {
     plug_in(&setup);
     assert_int_equal(stat(falcon_emulated_node(), &node), 0);
     for (int i = 0; i < 3; i++) {
-        knurl_device *device = NULL;
+        SCOPED_DEVICE *device = NULL;
         if (knurl_device_open("falcon:?guard=1", &device)) {
             fail_msg("%s", knurl_error_message());
         }
@@ -271,7 +267,6 @@ TEST(with_a_guard_it_works_and_is_free_again_and_one_that_is_killed_is_told) {
             run_until(device, 100, 400.0);
             assert_int_equal(reported(device, KNURL_FAULT_UNGUARDED), 1);
         }
-        knurl_device_close(device);
     }
     falcon_emulated_stop();
 }

@@ -70,14 +70,13 @@ TEST(every_kind_of_grip_gives_orientation_and_buttons) {
                  {INVERSE3_SIM_NO_GRIP, 0, 0.0}};
     for (size_t i = 0; i < COUNT_OF(cases); i++) {
         knurl_device_sample sample;
-        knurl_device *device = open_released("");
+        SCOPED_DEVICE *device = open_released("");
         inverse3_double_take()->grip = cases[i].grip;
         inverse3_double_give_back();
         assert_int_equal(run(device, 1100, none, &sample), KNURL_OK); /* pressed from its first second on */
         assert_int_equal(sample.buttons, cases[i].buttons);
         CHECK_CLOSE(sample.orientation[1], cases[i].turned, 1e-15);
         CHECK_CLOSE(sample.orientation[3], cases[i].turned, 1e-15);
-        knurl_device_close(device);
     }
 }
 
@@ -94,14 +93,12 @@ TEST(each_type_has_its_own_name_workspace_and_force_and_others_are_refused) {
     } out = {NULL};
     for (size_t i = 0; i < COUNT_OF(cases); i++) {
         const double force[3] = {0.0, 100.0, 0.0};
-        knurl_device_info info;
         knurl_device_sample sample;
-        knurl_device *device = NULL;
+        SCOPED_DEVICE *device = NULL;
         inverse3_double_begin();
         inverse3_double_sim()->type = cases[i].type;
         assert_int_equal(knurl_inverse3_open("", inverse3_double_service(), &device), KNURL_OK);
-        knurl_device_info_init(&info, sizeof info);
-        assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
+        const knurl_device_info info = device_info(device);
         assert_memory_equal(info.name, cases[i].name, strlen(cases[i].name));
         CHECK_CLOSE(info.workspace_max[1], cases[i].radius / sqrt(3.0), 1e-12);
         CHECK_SAME(info.max_force, cases[i].max_force);
@@ -109,7 +106,6 @@ TEST(each_type_has_its_own_name_workspace_and_force_and_others_are_refused) {
         knurl_device_release_halt(device);
         (void)run(device, 10, force, &sample);
         CHECK_CLOSE(inverse3_double_sim()->force[2], cases[i].max_force, 1e-12);
-        knurl_device_close(device);
     }
     inverse3_double_begin();
     inverse3_double_sim()->type = "inverse9";
@@ -120,42 +116,36 @@ TEST(each_type_has_its_own_name_workspace_and_force_and_others_are_refused) {
 /* The service's filter pipeline: viscous damping is set for the session, its oscillation damper cannot be, and the
  * force gate's gain has no published meaning: it stays, and the device's name tells it. */
 TEST(the_sessions_damping_is_off_and_the_force_gate_is_told) {
-    knurl_device_info info;
     knurl_device_sample sample;
-    knurl_device *device = open_released("");
+    SCOPED_DEVICE *device = open_released("");
     CHECK_SAME(inverse3_double_sim()->damping, 0.0);
-    knurl_device_info_init(&info, sizeof info);
-    assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
+    const knurl_device_info info = device_info(device);
     assert_string_equal(info.name, "Haply Inverse3 (force gate 0.3)");
     inverse3_double.inject(DOUBLE_UNPLUG);
     (void)run(device, 100, none, &sample);
     inverse3_double.inject(DOUBLE_WELL);
     assert_int_equal(knurl_device_start(device, 1000.0), KNURL_OK); /* a session of its own */
     CHECK_SAME(inverse3_double_sim()->damping, 0.0);
-    knurl_device_close(device);
 }
 
 /* The data sheet's figures; the workspace is the cube in the sphere that the maker's tutorial 06 keeps within. */
 TEST(forces_are_no_stronger_than_it_can_play) {
     const double force[3] = {0.0, 100.0, 0.0};
     knurl_device_sample sample;
-    knurl_device_info info;
-    knurl_device *device = open_released("");
+    SCOPED_DEVICE *device = open_released("");
     (void)run(device, 10, force, &sample);
     CHECK_CLOSE(inverse3_double_sim()->force[2], 4.0, 1e-12); /* what is up in Knurl is the service's z */
-    knurl_device_info_init(&info, sizeof info);
-    assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
+    const knurl_device_info info = device_info(device);
     CHECK_SAME(info.max_force, 4.0);
     CHECK_SAME(info.max_stiffness, 1000.0);
     CHECK_SAME(info.resolution, 0.00001);
     CHECK_CLOSE(info.workspace_max[0], 0.1 / sqrt(3.0), 1e-12);
-    knurl_device_close(device);
 }
 
 TEST(of_two_devices_the_one_that_is_named_is_moved_and_read) {
     static const double force[3] = {0.0, 1.0, 0.0};
     knurl_device_sample sample;
-    knurl_device *device = NULL;
+    SCOPED_DEVICE *device = NULL;
     inverse3_double_begin();
     inverse3_double_sim()->has_second = 1;
     assert_int_equal(knurl_inverse3_open("049D", inverse3_double_service(), &device), KNURL_OK);
@@ -165,7 +155,6 @@ TEST(of_two_devices_the_one_that_is_named_is_moved_and_read) {
     CHECK_CLOSE(sample.position[0], 0.0, 0.00002); /* the other one is at 0.05 */
     CHECK_SAME(inverse3_double_sim()->force[2], 1.0);
     CHECK_SAME(inverse3_double_sim()->force_of_second[2], 0.0);
-    knurl_device_close(device);
 }
 
 TEST(what_cannot_be_opened_says_why) {
@@ -288,8 +277,7 @@ TEST(an_answer_that_is_none_zeroes_the_force_and_is_counted) {
     static const double force[3] = {0.0, 1.0, 0.0};
     for (size_t i = 0; i < COUNT_OF(answers); i++) {
         knurl_device_sample sample;
-        knurl_device_status status;
-        knurl_device *device = open_released("");
+        SCOPED_DEVICE *device = open_released("");
         (void)run(device, 50, force, &sample);
         CHECK_SAME(inverse3_double_sim()->force[2], 1.0);
         inverse3_double_say(answers[i].text, answers[i].size);
@@ -297,12 +285,10 @@ TEST(an_answer_that_is_none_zeroes_the_force_and_is_counted) {
         CHECK_SAME(inverse3_double_sim()->force[2], 0.0);
         assert_true(has_event(device, KNURL_FAULT_CORRUPT));
         assert_int_equal(run(device, 20, force, &sample), KNURL_ERROR_DEVICE_NOT_READY);
-        knurl_device_status_init(&status, sizeof status);
-        assert_int_equal(knurl_device_get_status(device, &status), KNURL_OK);
+        const knurl_device_status status = device_status(device);
         assert_true(status.bad_bytes >= answers[i].size);
         inverse3_double_say(NULL, 0);
         assert_int_equal(run(device, 20, force, &sample), KNURL_OK);
-        knurl_device_close(device);
     }
 }
 
@@ -310,7 +296,7 @@ TEST(an_answer_that_is_none_zeroes_the_force_and_is_counted) {
 TEST(answers_that_stay_behind_are_no_positions) {
     static const double force[3] = {0.0, 1.0, 0.0};
     knurl_device_sample sample;
-    knurl_device *device = open_released("");
+    SCOPED_DEVICE *device = open_released("");
     (void)run(device, 50, force, &sample);
     inverse3_double.inject(DOUBLE_LATE);
     (void)run(device, 200, force, &sample);
@@ -319,7 +305,6 @@ TEST(answers_that_stay_behind_are_no_positions) {
     CHECK_SAME(inverse3_double_sim()->force[2], 0.0);
     inverse3_double.inject(DOUBLE_WELL);
     assert_int_equal(run(device, 50, none, &sample), KNURL_OK);
-    knurl_device_close(device);
 }
 
 static void pull(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user) {
@@ -383,7 +368,7 @@ TEST(without_power_or_not_ready_it_is_told_no_force_and_the_force_comes_back_by_
     for (size_t i = 0; i < COUNT_OF(causes); i++) {
         double value = -1.0;
         knurl_loop *loop = NULL;
-        knurl_device *device = open_in_loop(&loop);
+        SCOPED_DEVICE *device = open_in_loop(&loop);
         (void)count_events(device, 0, &value);
         inverse3_double.inject(i == 0 ? DOUBLE_OFF : DOUBLE_WELL);
         make_ready(i == 0);
@@ -400,32 +385,29 @@ TEST(without_power_or_not_ready_it_is_told_no_force_and_the_force_comes_back_by_
             fail_msg("came back by %g N in one exchange", look().greatest_rise);
         }
         knurl_loop_destroy(loop);
-        knurl_device_close(device);
     }
 }
 
 TEST(a_state_that_leaves_the_device_out_once_changes_nothing) {
     double value = 0.0;
     knurl_loop *loop = NULL;
-    knurl_device *device = open_in_loop(&loop);
+    SCOPED_DEVICE *device = open_in_loop(&loop);
     (void)count_events(device, 0, &value);
     leave_out(1);
     wait_ms(100);
     assert_int_equal(count_events(device, KNURL_FAULT_LOST, &value), 0);
     CHECK_CLOSE(look().told[2], 2.0, 1e-12);
     knurl_loop_destroy(loop);
-    knurl_device_close(device);
 }
 
 /* It may be there all the same, and plays what it was told last. */
 TEST(before_a_device_that_is_left_out_counts_as_lost_it_is_told_no_force) {
     double value = 0.0;
     knurl_loop *loop = NULL;
-    knurl_device *device = open_in_loop(&loop);
+    SCOPED_DEVICE *device = open_in_loop(&loop);
     leave_out(1000000);
     wait_ms(100);
     assert_int_equal(count_events(device, KNURL_FAULT_LOST, &value), 1);
     CHECK_SAME(look().told[2], 0.0);
     knurl_loop_destroy(loop);
-    knurl_device_close(device);
 }

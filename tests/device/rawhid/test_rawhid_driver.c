@@ -104,10 +104,8 @@ TEST_WITH(a_device_that_does_not_answer_is_not_opened, set_up, tear_down) {
 }
 
 TEST_WITH(what_it_is_is_told, set_up, tear_down) {
-    knurl_device_info info;
     open_device("");
-    knurl_device_info_init(&info, sizeof info);
-    assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
+    const knurl_device_info info = device_info(device);
     assert_string_equal(info.name, "WoodenHaptics v2015");
     CHECK_SAME(info.max_force, 3.0); /* what 2 A give in every direction in the middle: 3.2 N, rounded down */
     CHECK_SAME(info.max_stiffness, 1000.0);
@@ -126,7 +124,6 @@ TEST_WITH(what_it_is_is_told, set_up, tear_down) {
 TEST_WITH(a_geometry_file_makes_it_another_device, set_up, tear_down) {
     char path[512];
     char options[600];
-    knurl_device_info info;
     (void)snprintf(path, sizeof path, "%s/driver_%ld.geometry", KNURL_TEST_TMP, (long)getpid());
     (void)snprintf(options, sizeof options, "?geometry=%s", path);
     FILE *file = fopen(path, "w");
@@ -141,8 +138,7 @@ TEST_WITH(a_geometry_file_makes_it_another_device, set_up, tear_down) {
     hid_sim_forget(&hid.sim);
     open_device(options);
     (void)remove(path);
-    knurl_device_info_init(&info, sizeof info);
-    assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
+    const knurl_device_info info = device_info(device);
     assert_string_equal(info.name, "mine");
     CHECK_SAME(info.max_force, 2.0);
     assert_true(commands_sent() > 0); /* home_on_open */

@@ -21,12 +21,10 @@ TEST_WITH(answers_that_come_late_are_no_positions, set_up, tear_down) {
 }
 
 TEST_WITH(answers_that_are_cut_off_are_counted_and_told_once, set_up, tear_down) {
-    knurl_device_status status;
     check_zeroed(DOUBLE_SHORT, KNURL_FAULT_CORRUPT);
     tick_for(0.05, none);
     assert_int_equal(events_of(KNURL_FAULT_CORRUPT), 0);
-    knurl_device_status_init(&status, sizeof status);
-    assert_int_equal(knurl_device_get_status(device, &status), KNURL_OK);
+    const knurl_device_status status = device_status(device);
     assert_true(status.bad_bytes >= 7 && status.bad_bytes % 7 == 0);
     check_recovers();
 }

@@ -16,7 +16,6 @@ static void press(uint64_t tick, const knurl_device_sample *sample, double force
 /* Presses for `seconds`. Returns the motors' heat before and after, by the loop's own telling. */
 static void run(double seconds, double *before, double *after) {
     knurl_loop_desc desc;
-    knurl_loop_stats stats;
     knurl_loop *loop = NULL;
     open_device("");
     (void)wait_for_position();
@@ -25,12 +24,11 @@ static void run(double seconds, double *before, double *after) {
     desc.force_callback = press;
     assert_int_equal(knurl_loop_create(&desc, &loop), KNURL_OK);
     assert_int_equal(knurl_loop_start(loop), KNURL_OK);
-    knurl_loop_stats_init(&stats, sizeof stats);
-    assert_int_equal(knurl_loop_get_stats(loop, &stats), KNURL_OK);
+    knurl_loop_stats stats = loop_stats(loop);
     *before = stats.heat;
     sleep_s(seconds);
     knurl_loop_stop(loop);
-    assert_int_equal(knurl_loop_get_stats(loop, &stats), KNURL_OK);
+    stats = loop_stats(loop);
     *after = stats.heat;
     knurl_loop_destroy(loop);
     knurl_device_close(device);

@@ -7,11 +7,10 @@
 static const char plate[] = KNURL_TEST_ASSETS "/plate_1d.glb";
 
 TEST(the_tool_lists_the_device) {
-    process p = ON_EMULATED("devices");
+    SCOPED_PROCESS p = ON_EMULATED("devices");
     check_done(&p);
     assert_non_null(strstr(p.out, "rawhid:16c0:0486"));
     assert_non_null(strstr(p.out, "Teensyduino WoodenHaptics"));
-    process_free(&p);
 }
 
 TEST(a_plate_is_felt_with_it) {
@@ -28,8 +27,7 @@ TEST(a_plate_is_felt_with_it) {
 }
 
 TEST(a_run_with_a_device_that_is_not_there_fails_with_a_sentence) {
-    process p = ON_EMULATED("run", plate, "--device", "rawhid:1234:6", "--seconds", "0.1");
+    SCOPED_PROCESS p = ON_EMULATED("run", plate, "--device", "rawhid:1234:6", "--seconds", "0.1");
     assert_true(p.exit_code != 0);
     assert_non_null(strstr(p.err, "looked for a USB HID device 1234:0006 and found none"));
-    process_free(&p);
 }

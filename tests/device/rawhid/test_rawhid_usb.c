@@ -104,30 +104,27 @@ TEST_WITH(it_is_listed_opened_and_closed_again_and_again, set_up, tear_down) {
     assert_string_equal(listing.reason, "");
     for (int i = 0; i < 5; i++) {
         knurl_device_sample sample;
-        knurl_device *device = open_device();
+        SCOPED_DEVICE *device = open_device();
         assert_true(tick_device_until(device, KNURL_OK, none, 5.0, &sample));
         assert_true(vec3_length(sample.position) < 0.0003);
-        knurl_device_close(device);
     }
 }
 
 TEST_WITH(a_force_moves_the_hand_its_way_and_closing_ends_it, set_up, tear_down) {
     static const double force[3] = {1.0, -2.0, 0.5};
     knurl_device_sample sample;
-    knurl_device_status status;
     plug(0xffab, 64);
     knurl_device *device = open_device();
     assert_true(tick_device_until(device, KNURL_OK, none, 5.0, &sample));
     const int64_t start = knurl_system_now_ns();
-    knurl_device_status_init(&status, sizeof status);
-    assert_int_equal(knurl_device_get_status(device, &status), KNURL_OK);
+    knurl_device_status status = device_status(device);
     const uint64_t before = status.exchanges;
     int tries = 0;
     do {
         hold(device, force, 1.0);
     } while (!has_followed(device, force) && ++tries < 15);
     assert_true(tries < 15);
-    assert_int_equal(knurl_device_get_status(device, &status), KNURL_OK);
+    status = device_status(device);
     if (getenv("KNURL_TIMES")) {
         print_message("%.0f exchanges/s, median %.0f us, 99 %% within %.0f us\n",
                       (double)(status.exchanges - before) / (1e-9 * (double)(knurl_system_now_ns() - start)),
@@ -141,9 +138,8 @@ TEST_WITH(a_force_moves_the_hand_its_way_and_closing_ends_it, set_up, tear_down)
 TEST_WITH(reports_of_14_bytes_work_as_well, set_up, tear_down) {
     knurl_device_sample sample;
     plug(0xffab, 14);
-    knurl_device *device = open_device();
+    SCOPED_DEVICE *device = open_device();
     assert_true(tick_device_until(device, KNURL_OK, none, 5.0, &sample));
-    knurl_device_close(device);
 }
 
 TEST_WITH(an_interface_of_another_usage_is_refused_in_a_sentence, set_up, tear_down) {
@@ -203,7 +199,7 @@ TEST_WITH(muted_it_is_halted_and_comes_back, set_up, tear_down) {
     static const double force[3] = {0.0, 0.5, 0.0};
     knurl_device_sample sample;
     plug(0xffab, 64);
-    knurl_device *device = open_device();
+    SCOPED_DEVICE *device = open_device();
     assert_true(tick_device_until(device, KNURL_OK, none, 5.0, &sample));
     (void)tick_device_until(device, 1, force, 0.1, &sample);
     knurl_system_mutex_lock(&hid.mutex);
@@ -216,13 +212,12 @@ TEST_WITH(muted_it_is_halted_and_comes_back, set_up, tear_down) {
     hid.is_mute = 0;
     knurl_system_mutex_unlock(&hid.mutex);
     assert_true(tick_device_until(device, KNURL_OK, none, 5.0, &sample));
-    knurl_device_close(device);
 }
 
 TEST_WITH(unplugged_it_is_lost_and_plugged_in_again_it_is_found, set_up, tear_down) {
     knurl_device_sample sample;
     plug(0xffab, 64);
-    knurl_device *device = open_device();
+    SCOPED_DEVICE *device = open_device();
     assert_true(tick_device_until(device, KNURL_OK, none, 5.0, &sample));
     const int64_t pulled = knurl_system_now_ns();
     emulated_hid_unplug(&hid);
@@ -232,7 +227,6 @@ TEST_WITH(unplugged_it_is_lost_and_plugged_in_again_it_is_found, set_up, tear_do
     plug(0xffab, 64);
     assert_int_equal(knurl_device_reopen(device), KNURL_OK);
     assert_true(tick_device_until(device, KNURL_OK, none, 5.0, &sample));
-    knurl_device_close(device);
 }
 
 /* In a child, until it is killed. */
@@ -309,10 +303,9 @@ TEST_WITH(a_device_that_another_program_has_is_refused_in_a_sentence, set_up, te
     skip_under_sanitizers();
     knurl_device_sample sample;
     plug(0xffab, 64);
-    knurl_device *device = open_device();
+    SCOPED_DEVICE *device = open_device();
     assert_int_equal(open_in_another_program(), 0);
     assert_true(tick_device_until(device, KNURL_OK, none, 5.0, &sample));
-    knurl_device_close(device);
 }
 
 /* Nobody gives anything back then but the kernel. */

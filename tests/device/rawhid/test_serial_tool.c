@@ -32,10 +32,9 @@ TEST(a_plate_is_felt_with_it) {
 }
 
 TEST(a_port_that_is_not_there_is_named) {
-    process p = RUN_TOOL("run", plate, "--device", "serial:/dev/nowhere", "--seconds", "0.1");
+    SCOPED_PROCESS p = RUN_TOOL("run", plate, "--device", "serial:/dev/nowhere", "--seconds", "0.1");
     assert_true(p.exit_code != 0);
     assert_non_null(strstr(p.err, "/dev/nowhere could not be opened"));
-    process_free(&p);
 }
 
 TEST(a_file_that_is_no_port_is_told_apart_from_one_in_use) {

@@ -31,10 +31,8 @@ static double told(void) {
 /* --- what the device is --- */
 
 TEST_WITH(what_hd_tells_of_the_device_comes_in_si, stub_by_hand, stub_check) {
-    knurl_device_info info;
-    knurl_device_info_init(&info, sizeof info);
-    knurl_device *device = stub_open("touch");
-    assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
+    SCOPED_DEVICE *device = stub_open("touch");
+    const knurl_device_info info = device_info(device);
     assert_string_equal(info.name, "3D Systems Touch (Touch of straw)");
     CHECK_CLOSE(info.workspace_min[0], -0.080, 1e-12); /* the stub's: +-80, 60, 35 mm */
     CHECK_CLOSE(info.workspace_max[1], 0.060, 1e-12);
@@ -45,15 +43,12 @@ TEST_WITH(what_hd_tells_of_the_device_comes_in_si, stub_by_hand, stub_check) {
     CHECK_CLOSE(info.max_damping, 3.0, 1e-12);     /* 0.003 N s/mm */
     CHECK_CLOSE(info.resolution, 0.055e-3, 1e-12);
     assert_true(info.heat_time > 0.0 && info.mass > 0.0);
-    knurl_device_close(device);
 }
 
 TEST_WITH(what_hd_does_not_tell_comes_from_the_data_sheet, stub_by_hand, stub_check) {
-    knurl_device_info info;
-    knurl_device_info_init(&info, sizeof info);
     stub.set(STUB_DEFAULT, STUB_TELLS_NOTHING, 1.0);
-    knurl_device *device = stub_open("touch");
-    assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
+    SCOPED_DEVICE *device = stub_open("touch");
+    const knurl_device_info info = device_info(device);
     assert_string_equal(info.name, "3D Systems Touch (unknown model)");
     CHECK_CLOSE(info.workspace_max[0] - info.workspace_min[0], 0.160, 1e-12);
     CHECK_CLOSE(info.workspace_max[1] - info.workspace_min[1], 0.120, 1e-12);
@@ -62,16 +57,13 @@ TEST_WITH(what_hd_does_not_tell_comes_from_the_data_sheet, stub_by_hand, stub_ch
     CHECK_CLOSE(info.continuous_force, 0.88, 1e-12);
     CHECK_CLOSE(info.max_stiffness, 1020.0, 1e-9);
     assert_true(isinf(info.max_damping));
-    knurl_device_close(device);
 }
 
 TEST_WITH(random_properties_are_never_believed_where_they_make_no_sense, stub_by_hand, stub_check) {
     for (int turn = 0; turn < 2000; turn++) {
-        knurl_device_info info;
-        knurl_device_info_init(&info, sizeof info);
         stub.set(STUB_DEFAULT, STUB_RANDOM, 1.0);
-        knurl_device *device = stub_open("touch");
-        assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
+        SCOPED_DEVICE *device = stub_open("touch");
+        const knurl_device_info info = device_info(device);
         assert_true(info.max_force > 0.0 && info.max_force <= 100.0);
         assert_true(info.continuous_force > 0.0 && info.continuous_force <= info.max_force);
         assert_true(info.max_stiffness > 0.0 && info.max_damping > 0.0);
@@ -79,7 +71,6 @@ TEST_WITH(random_properties_are_never_believed_where_they_make_no_sense, stub_by
             assert_true(info.workspace_min[axis] < info.workspace_max[axis]);
             assert_true(fabs(info.workspace_min[axis]) <= 10.0 && fabs(info.workspace_max[axis]) <= 10.0);
         }
-        knurl_device_close(device);
     }
 }
 
@@ -116,11 +107,9 @@ TEST_WITH(a_handle_that_is_none_is_refused_with_the_first_calls_error, stub_by_h
 /* The stub's stylus is turned by 120 degrees about (1, 1, 1): x to y, y to z, z to x. */
 TEST_WITH(the_orientation_of_the_stylus_is_told, stub_by_hand, stub_check) {
     bench b;
-    knurl_device_status status;
     start(&b, 0.0);
     stub.turn(10);
-    knurl_device_status_init(&status, sizeof status);
-    assert_int_equal(knurl_device_get_status(b.device, &status), KNURL_OK);
+    const knurl_device_status status = device_status(b.device);
     for (int i = 0; i < 4; i++) {
         CHECK_CLOSE(status.orientation[i], 0.5, 1e-15); /* cos 60 degrees, and sin 60 degrees / sqrt 3 */
     }
@@ -286,25 +275,23 @@ TEST_WITH(it_can_be_read_and_written_only_in_a_tick, stub_by_hand, stub_check) {
 TEST_WITH(a_loop_cannot_be_stepped, stub_by_hand, stub_check) {
     knurl_loop *loop = NULL;
     stub_push push = {{0}, {0}, 0, 0};
-    knurl_device *device = stub_open("touch");
+    SCOPED_DEVICE *device = stub_open("touch");
     const knurl_loop_desc desc = stub_loop_desc(device, &push);
     assert_int_equal(knurl_loop_create(&desc, &loop), KNURL_OK);
     assert_int_equal(knurl_loop_step(loop, 1), KNURL_ERROR_UNSUPPORTED);
     knurl_loop_destroy(loop);
-    knurl_device_close(device);
 }
 
 /* --- the rate --- */
 
 TEST_WITH(the_scheduler_runs_at_the_rate_of_the_loop, stub_by_hand, stub_check) {
-    knurl_device *device = stub_open("touch");
+    SCOPED_DEVICE *device = stub_open("touch");
     assert_int_equal(knurl_device_start(device, 500.0), KNURL_OK);
     assert_true(stub.ask(0, STUB_RATE) == 500.0);
-    knurl_device_close(device);
 }
 
 TEST_WITH(rates_that_the_scheduler_cannot_keep_are_refused, stub_by_hand, stub_check) {
-    knurl_device *device = stub_open("touch");
+    SCOPED_DEVICE *device = stub_open("touch");
     stub.set(0, STUB_REFUSED_RATE, 2000.0);
     (void)knurl_fail(KNURL_OK, "stale message");
     assert_int_equal(knurl_device_start(device, 2000.0), KNURL_ERROR_UNSUPPORTED);
@@ -313,7 +300,6 @@ TEST_WITH(rates_that_the_scheduler_cannot_keep_are_refused, stub_by_hand, stub_c
     assert_int_equal(knurl_device_start(device, 1000.5), KNURL_ERROR_UNSUPPORTED);
     check_message("1000.5 Hz");
     assert_true(stub.ask(0, STUB_RATE) == 1000.0);
-    knurl_device_close(device);
 }
 
 TEST_WITH(a_scheduler_that_changes_no_rate_is_taken_at_the_rate_that_it_has, stub_by_hand, stub_check) {
@@ -331,8 +317,7 @@ TEST_WITH(a_scheduler_that_changes_no_rate_is_taken_at_the_rate_that_it_has, stu
 }
 
 TEST_WITH(a_timer_error_of_a_refused_rate_is_no_lost_device, stub_by_hand, stub_check) {
-    knurl_device *device = stub_open("touch");
-    knurl_device_status status;
+    SCOPED_DEVICE *device = stub_open("touch");
     stub.set(0, STUB_RATE_ERROR, 0x0304);
     assert_int_equal(knurl_device_start(device, 2000.0), KNURL_ERROR_UNSUPPORTED);
     stub.set(0, STUB_RATE_ERROR, 0.0);
@@ -341,12 +326,10 @@ TEST_WITH(a_timer_error_of_a_refused_rate_is_no_lost_device, stub_by_hand, stub_
     const knurl_loop_desc desc = stub_loop_desc(device, &push);
     knurl_loop *loop = stub_loop(&desc);
     stub.turn(100);
-    knurl_device_status_init(&status, sizeof status);
-    assert_int_equal(knurl_device_get_status(device, &status), KNURL_OK);
+    const knurl_device_status status = device_status(device);
     assert_int_equal(status.lost, 0);
     CHECK_CLOSE(stub.ask(STUB_DEFAULT, STUB_TOLD), 1.0, 1e-12);
     stub_end_loop(loop);
-    knurl_device_close(device);
 }
 
 SUITE_FIXTURES(stub_load, stub_unload)

@@ -30,13 +30,6 @@ static double told(void) {
     return stub.ask(STUB_DEFAULT, STUB_TOLD);
 }
 
-static knurl_device_status status_of(const knurl_device *device) {
-    knurl_device_status status;
-    knurl_device_status_init(&status, sizeof status);
-    assert_int_equal(knurl_device_get_status(device, &status), KNURL_OK);
-    return status;
-}
-
 /* --- losses --- */
 
 /* Counts its calls; goes on as a loop does that waits for its device. */
@@ -49,7 +42,7 @@ static uint32_t count_calls(void *argument) {
 }
 
 TEST_WITH(a_device_that_is_lost_is_told_of_once_and_not_served_any_more, stub_by_hand, stub_check) {
-    knurl_device *device = stub_open("touch");
+    SCOPED_DEVICE *device = stub_open("touch");
     device->max_speed = 100.0;
     assert_int_equal(knurl_device_start(device, 1000.0), KNURL_OK);
     assert_int_equal(device->driver->serve(device, count_calls, &device), KNURL_OK);
@@ -67,7 +60,6 @@ TEST_WITH(a_device_that_is_lost_is_told_of_once_and_not_served_any_more, stub_by
     assert_true(device->max_speed == 122.0);
     assert_int_equal(stub_events(device, KNURL_FAULT_RECONNECTED, NULL), 1);
     assert_true(stub.ask(0, STUB_STARTS) == 2.0 && stub.ask(0, STUB_MISUSES) == 0.0);
-    knurl_device_close(device);
 }
 
 TEST_WITH(every_error_that_is_a_loss_ends_the_loop, stub_by_hand, stub_check) {
@@ -80,7 +72,7 @@ TEST_WITH(every_error_that_is_a_loss_ends_the_loop, stub_by_hand, stub_check) {
         stub.turn(3);
         stub.set(STUB_DEFAULT, STUB_ERROR, 0.0);
         assert_int_equal(stub_loop_state(b.loop), KNURL_LOOP_LOST);
-        assert_int_equal(status_of(b.device).lost, 1);
+        assert_int_equal(device_status(b.device).lost, 1);
         end(&b);
     }
 }
@@ -91,10 +83,10 @@ TEST_WITH(a_loop_that_reconnects_goes_on_by_itself_in_real_time, stub_by_hand, s
     start(&b, 1);
     stub.set(STUB_DEFAULT, STUB_ABSENT, 1.0);
     int64_t until = knurl_system_now_ns() + INT64_C(10000000000);
-    while (!status_of(b.device).lost && knurl_system_now_ns() < until) {
+    while (!device_status(b.device).lost && knurl_system_now_ns() < until) {
         knurl_system_sleep_until_ns(knurl_system_now_ns() + 1000000);
     }
-    assert_int_equal(status_of(b.device).lost, 1);
+    assert_int_equal(device_status(b.device).lost, 1);
     assert_int_equal(stub_loop_state(b.loop), KNURL_LOOP_RUNNING);
     stub.set(STUB_DEFAULT, STUB_ABSENT, 0.0);
     const uint64_t ticks = __atomic_load_n(&b.push.ticks, __ATOMIC_RELAXED);
@@ -102,7 +94,7 @@ TEST_WITH(a_loop_that_reconnects_goes_on_by_itself_in_real_time, stub_by_hand, s
         knurl_system_sleep_until_ns(knurl_system_now_ns() + 1000000);
     }
     assert_true(__atomic_load_n(&b.push.ticks, __ATOMIC_RELAXED) >= ticks + 50);
-    assert_int_equal(status_of(b.device).lost, 0);
+    assert_int_equal(device_status(b.device).lost, 0);
     assert_int_equal(stub_events(b.device, KNURL_FAULT_RECONNECTED, NULL), 1);
     knurl_loop_destroy(b.loop);
     knurl_device_close(b.device);
@@ -150,7 +142,7 @@ TEST_WITH(a_tick_that_takes_longer_than_a_second_is_no_loss, stub_by_hand, stub_
     knurl_loop *loop = NULL;
     stub_push push = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, 0, 0};
     stub.set(0, STUB_BY_HAND, 0.0);
-    knurl_device *device = stub_open("touch");
+    SCOPED_DEVICE *device = stub_open("touch");
     knurl_loop_desc desc = stub_loop_desc(device, &push);
     desc.force_callback = dream_once;
     desc.tick_limit = 50;
@@ -161,7 +153,6 @@ TEST_WITH(a_tick_that_takes_longer_than_a_second_is_no_loss, stub_by_hand, stub_
     knurl_loop_destroy(loop);
     assert_int_equal(stub_events(device, KNURL_FAULT_LOST, NULL), 0);
     assert_int_equal(push.ticks, 50);
-    knurl_device_close(device);
 }
 
 /* --- refusals and other errors --- */
@@ -180,7 +171,7 @@ TEST_WITH(a_force_that_is_refused_is_one_fault_a_burst_and_zeroed, stub_by_hand,
         stub.turn(500);
         assert_int_equal(stub_events(b.device, KNURL_FAULT_REFUSED, &value), 1);
         CHECK_SAME(value, codes[i]);
-        assert_true(told() == 0.0 && status_of(b.device).halted == 1 && status_of(b.device).lost == 0);
+        assert_true(told() == 0.0 && device_status(b.device).halted == 1 && device_status(b.device).lost == 0);
         stub.set(STUB_DEFAULT, STUB_ERROR, 0.0);
         stub.turn(99);
         assert_true(told() == 0.0);
@@ -195,13 +186,13 @@ TEST_WITH(other_errors_are_counted_and_nothing_else, stub_by_hand, stub_check) {
     bench b;
     start(&b, 0);
     stub.turn(5);
-    const uint64_t before = status_of(b.device).bad_bytes;
+    const uint64_t before = device_status(b.device).bad_bytes;
     stub.set(STUB_DEFAULT, STUB_ERROR, 0x0100);
     stub.turn(20);
     stub.set(STUB_DEFAULT, STUB_ERROR, 0x0abc);
     stub.turn(20);
     stub.set(STUB_DEFAULT, STUB_ERROR, 0.0);
-    assert_int_equal(status_of(b.device).bad_bytes - before, 40);
+    assert_int_equal(device_status(b.device).bad_bytes - before, 40);
     knurl_device_event event;
     while (knurl_device_next_event(b.device, &event)) {
         assert_int_equal(event.code, KNURL_FAULT_OVERRUN); /* of turns by hand, at any pace */

@@ -166,9 +166,8 @@ TEST(the_listing_says_why_there_is_none_or_what_there_is) {
 
 TEST(a_device_that_this_program_has_open_is_listed_as_in_use) {
     assert_int_equal(setenv("KNURL_HD_LIBRARY", KNURL_TEST_STUB, 1), 0);
-    knurl_device *left = stub_open("touch:Left Device");
+    SCOPED_DEVICE *left = stub_open("touch:Left Device");
     const knurl_device_listing found = listing_of_touch();
     assert_string_equal(found.uri, "touch:Left Device");
     assert_non_null(strstr(found.reason, "in use"));
-    knurl_device_close(left);
 }

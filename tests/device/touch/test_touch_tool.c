@@ -19,7 +19,7 @@ static int use_none(void **state) {
 /* --- the tool --- */
 
 TEST_WITH(the_tool_feels_the_demo_plate_on_a_touch, use_stub, NULL) {
-    process p = RUN_TOOL("run", plate, "--device", "touch", "--seconds", "0.6");
+    SCOPED_PROCESS p = RUN_TOOL("run", plate, "--device", "touch", "--seconds", "0.6");
     if (p.exit_code != 0) {
         fail_msg("exit %d, signal %d: %s", p.exit_code, p.signal, p.err);
     }
@@ -27,7 +27,6 @@ TEST_WITH(the_tool_feels_the_demo_plate_on_a_touch, use_stub, NULL) {
     assert_true(json_number_of(p.out, "contact_s") > 0.3);
     assert_true(json_number_of(p.out, "half_cycles_crossed") > 20.0);
     assert_true(json_number_of(p.out, "force_max_n") > 0.05 && json_number_of(p.out, "force_max_n") <= 3.3);
-    process_free(&p);
 }
 
 static int lacks_rights(const char *device) {
@@ -43,10 +42,9 @@ TEST_WITH(real_time_rights_are_missed_on_a_touch_only_where_they_are_on_others, 
 
 TEST_WITH(the_tool_says_so_when_the_touch_gets_lost, use_stub, NULL) {
     assert_int_equal(setenv("KNURL_STUB_HD", "fail_at=300", 1), 0);
-    process p = RUN_TOOL("run", plate, "--device", "touch", "--seconds", "5");
+    SCOPED_PROCESS p = RUN_TOOL("run", plate, "--device", "touch", "--seconds", "5");
     assert_int_equal(p.exit_code, 1);
     assert_non_null(strstr(p.err, "the device was lost"));
-    process_free(&p);
 }
 
 TEST_WITH(without_a_library_the_tool_says_what_helps, use_none, NULL) {
@@ -81,22 +79,20 @@ TEST_WITH(the_sample_plays_all_three_gratings_on_a_touch_and_on_the_fake_device,
 
 TEST_WITH(the_sample_tells_faults_as_they_come_and_waits_for_the_device, use_stub, NULL) {
     assert_int_equal(setenv("KNURL_STUB_HD", "fail_at=300", 1), 0);
-    process p = RUN_SAMPLE("--seconds", "0.7");
+    SCOPED_PROCESS p = RUN_SAMPLE("--seconds", "0.7");
     assert_non_null(strstr(p.out, "lost: "));
     assert_non_null(strstr(p.out, "reconnected: ")); /* the stub's cable is plugged in again at once */
     assert_int_equal(p.exit_code, 0);
-    process_free(&p);
 }
 
 TEST_WITH(the_sample_stops_at_ctrl_c, use_stub, NULL) {
-    process p = process_start((const char *const[]){KNURL_TEST_SAMPLE, "touch", NULL}, NULL);
+    SCOPED_PROCESS p = process_start((const char *const[]){KNURL_TEST_SAMPLE, "touch", NULL}, NULL);
     const struct timespec nap = {0, 200000000};
     (void)nanosleep(&nap, NULL);
     assert_int_equal(kill(p.pid, SIGINT), 0);
     process_finish(&p);
     assert_int_equal(p.signal, 0);
     assert_int_equal(p.exit_code, 0);
-    process_free(&p);
 }
 
 TEST_WITH(the_sample_helps_and_refuses, use_none, NULL) {

@@ -91,25 +91,23 @@ TEST_WITH(an_error_is_blamed_on_the_device_that_it_is_about, stub_by_hand, stub_
 
 TEST_WITH(a_device_is_opened_once, stub_by_hand, stub_check) {
     knurl_device *second = NULL;
-    knurl_device *first = stub_open("touch");
+    SCOPED_DEVICE *first = stub_open("touch");
     CHECK_REFUSED(knurl_device_open("touch", &second), KNURL_ERROR_SYSTEM, second);
     check_message("in use");
     CHECK_REFUSED(knurl_device_open("touch:Default Device", &second), KNURL_ERROR_SYSTEM, second);
     assert_true(stub.ask(STUB_DEFAULT, STUB_INITIALISED) == 1.0);
-    knurl_device_close(first);
 }
 
 TEST_WITH(two_loops_run_at_one_rate, stub_by_hand, stub_check) {
     hand left;
     start(&left, "touch:Left Device", 1.0);
-    knurl_device *right = stub_open("touch:Right Device");
+    SCOPED_DEVICE *right = stub_open("touch:Right Device");
     (void)knurl_fail(KNURL_OK, "stale message");
     assert_int_equal(knurl_device_start(right, 500.0), KNURL_ERROR_UNSUPPORTED);
     check_message("one scheduler");
     assert_true(stub.ask(0, STUB_RATE) == 1000.0);
     end(&left);
     assert_int_equal(knurl_device_start(right, 500.0), KNURL_OK); /* nobody else runs any more */
-    knurl_device_close(right);
 }
 
 TEST_WITH(a_current_device_that_another_thread_changes_mixes_nothing_up, stub_by_hand, stub_check) {

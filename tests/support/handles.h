@@ -1,0 +1,42 @@
+/* Scenes and devices that end with their block, the last made first: SCOPED_SCENE *scene = empty_scene(1); and what
+ * devices and loops tell. SPDX-License-Identifier: MIT */
+#ifndef KNURL_TEST_HANDLES_H
+#define KNURL_TEST_HANDLES_H
+
+#include "support/suite.h"
+
+#include <knurl/knurl.h>
+
+static inline void scoped_scene(knurl_scene **scene) {
+    knurl_scene_destroy(*scene);
+}
+
+static inline void scoped_device(knurl_device **device) {
+    knurl_device_close(*device);
+}
+
+#define SCOPED_SCENE  __attribute__((cleanup(scoped_scene))) knurl_scene
+#define SCOPED_DEVICE __attribute__((cleanup(scoped_device))) knurl_device
+
+static inline knurl_device_info device_info(const knurl_device *device) {
+    knurl_device_info info;
+    knurl_device_info_init(&info, sizeof info);
+    assert_int_equal(knurl_device_get_info(device, &info), KNURL_OK);
+    return info;
+}
+
+static inline knurl_device_status device_status(const knurl_device *device) {
+    knurl_device_status status;
+    knurl_device_status_init(&status, sizeof status);
+    assert_int_equal(knurl_device_get_status(device, &status), KNURL_OK);
+    return status;
+}
+
+static inline knurl_loop_stats loop_stats(const knurl_loop *loop) {
+    knurl_loop_stats stats;
+    knurl_loop_stats_init(&stats, sizeof stats);
+    assert_int_equal(knurl_loop_get_stats(loop, &stats), KNURL_OK);
+    return stats;
+}
+
+#endif
