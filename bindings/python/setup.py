@@ -1,6 +1,7 @@
 """Builds the libraries into the package, and what cffi reads of their headers. Needs CMake, a C and a C++ compiler and
 what knurl_gltf is built with (tinygltf, nlohmann-json, GLM). The environment variable CMAKE_ARGS may hold more options for
-CMake; KNURL_BUILD_FOLDER, where they are built (default: build/libraries). SPDX-License-Identifier: MIT"""
+CMake; KNURL_BUILD_FOLDER, where they are built (default: build/libraries). A source archive holds the library's sources
+beside this file, in sdk-source. SPDX-License-Identifier: MIT"""
 import os
 import re
 import shlex
@@ -9,10 +10,16 @@ import subprocess
 
 from setuptools import Distribution, setup
 from setuptools.command.build_py import build_py
+from setuptools.command.sdist import sdist
 from wheel.bdist_wheel import bdist_wheel
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__))))
+HERE = os.path.dirname(os.path.realpath(__file__))
+CARRIED = os.path.join(HERE, "sdk-source")
+ROOT = CARRIED if os.path.isdir(CARRIED) else os.path.dirname(os.path.dirname(HERE))
 HEADERS = os.path.join(ROOT, "sdk/include")
+# What the libraries are built and installed from.
+SOURCES = ("CMakeLists.txt", "cmake", "sdk", "LICENSE", "README.md", "CHANGELOG.md", "SECURITY.md",
+           "bindings/godot/addons/knurl/THIRD_PARTY.md")
 # What every machine need not have is linked in.
 RUNTIME = "-DCMAKE_SHARED_LINKER_FLAGS=-static-libgcc -static-libstdc++"
 
@@ -23,43 +30,73 @@ def version():
 
 
 def interface():
-    """The headers as cffi reads them: preprocessed, without what other headers declare, and without attributes."""
+    """The headers as cffi reads them: preprocessed, without what other headers declare, and without attributes; of macros
+    those that are whole numbers."""
     compiler = os.environ.get("CC", "cc")
-    text = subprocess.run([compiler, "-E", "-I", HEADERS, "-DKNURL_NONBLOCKING=", "-include", "knurl/knurl.h", "-x", "c",
-                           os.devnull], check=True, capture_output=True, text=True).stdout
+    text = subprocess.run([compiler, "-E", "-dD", "-I", HEADERS, "-DKNURL_NONBLOCKING=", "-include", "knurl/knurl.h", "-include",
+                           os.path.join(HERE, "native/record.h"), "-x", "c", os.devnull], check=True, capture_output=True, text=True).stdout
     ours, kept = False, []
     for line in text.splitlines():
         marker = re.match(r'# \d+ "(.*?)"', line)
         if marker:
-            ours = marker.group(1).startswith(HEADERS)
-        elif ours:
+            ours = marker.group(1).startswith((HEADERS, HERE))
+        elif ours and line.startswith("#define"):
+            number = re.match(r"#define (KNURL_\w+) \(?(-?\d+)\)?$", line)
+            kept += [f"#define {number[1]} {number[2]}"] if number else []
+        elif ours and not line.startswith("#"):
             kept.append(line)
     return re.sub(r"__attribute__\s*\(\((?:[^()]|\([^()]*\))*\)\)", "", "\n".join(kept))
 
 
 class Build(build_py):
+    editable_mode = False # setuptools sets it for `pip install -e`: the package is then used where its sources are
+
     def run(self):
         super().run()
-        package = os.path.abspath(os.path.join(self.build_lib, "knurl"))
+        package = os.path.join(HERE, "knurl") if self.editable_mode else os.path.abspath(os.path.join(self.build_lib, "knurl"))
         folder = os.path.abspath(os.environ.get("KNURL_BUILD_FOLDER", os.path.join("build", "libraries")))
-        subprocess.run(["cmake", "-S", ROOT, "-B", folder, "-DCMAKE_BUILD_TYPE=Release", "-DBUILD_SHARED_LIBS=ON",
-                        "-DBUILD_TESTING=OFF", "-DKNURL_GODOT=OFF", "-DKNURL_UNITY=OFF", "-DCMAKE_INSTALL_LIBDIR=lib",
-                        "-DCMAKE_BUILD_RPATH_USE_ORIGIN=ON", RUNTIME, *shlex.split(os.environ.get("CMAKE_ARGS", ""))],
-                       check=True)
-        subprocess.run(["cmake", "--build", folder, "--parallel", "--target", "knurl", "knurl_gltf"], check=True)
+        subprocess.run(["cmake", "-S", HERE, "-B", folder, f"-DKNURL_SOURCE={ROOT}", "-DCMAKE_BUILD_TYPE=Release",
+                        "-DBUILD_SHARED_LIBS=ON", "-DCMAKE_INSTALL_LIBDIR=lib", "-DCMAKE_BUILD_RPATH_USE_ORIGIN=ON", RUNTIME,
+                        *shlex.split(os.environ.get("CMAKE_ARGS", ""))], check=True)
+        subprocess.run(["cmake", "--build", folder, "--parallel", "--target", "knurl", "knurl_gltf", "knurl_record"], check=True)
         subprocess.run(["cmake", "--install", folder, "--component", "runtime", "--strip", "--prefix",
                         os.path.join(folder, "installed")], check=True)
         libraries = os.path.join(folder, "installed", "lib")
         for name in os.listdir(libraries):
-            if re.search(r"\.so\.\d+\.\d+$", name): # the name that it is loaded by
+            if re.search(r"record\.so$|\.so\.\d+\.\d+$", name): # the name that it is loaded by
                 shutil.copy(os.path.join(libraries, name), package)
+        os.makedirs(os.path.join(package, "licences"), exist_ok=True)
+        for name in ("LICENSE", "bindings/godot/addons/knurl/THIRD_PARTY.md"):
+            shutil.copy(os.path.join(ROOT, name), os.path.join(package, "licences"))
         with open(os.path.join(package, "interface.h"), "w", encoding="utf-8") as file:
             file.write(interface())
 
 
+class Archive(sdist):
+    def make_release_tree(self, base_dir, files):
+        super().make_release_tree(base_dir, files)
+        for name in SOURCES:
+            path, to = os.path.join(ROOT, name), os.path.join(base_dir, "sdk-source", name)
+            os.makedirs(os.path.dirname(to), exist_ok=True)
+            if os.path.isdir(path):
+                shutil.copytree(path, to)
+            else:
+                shutil.copy(path, to)
+
+
 class Wheel(bdist_wheel):
     def get_tag(self):
-        return ("py3", "none", super().get_tag()[2]) # any Python 3, but this machine's kind
+        """Any Python 3, but this machine's kind, from the C library on whose functions the libraries need."""
+        platform = super().get_tag()[2]
+        needed = [0]
+        for root, _, names in os.walk(self.bdist_dir or "."):
+            for name in names:
+                if ".so" in name:
+                    with open(os.path.join(root, name), "rb") as file:
+                        needed += [int(minor) for minor in re.findall(rb"GLIBC_2\.(\d+)", file.read())]
+        if platform.startswith("linux_") and max(needed) > 0:
+            platform = f"manylinux_2_{max(17, *needed)}_{platform[len('linux_'):]}"
+        return ("py3", "none", platform)
 
 
 class WithLibraries(Distribution):
@@ -67,4 +104,4 @@ class WithLibraries(Distribution):
         return True
 
 
-setup(version=version(), cmdclass={"build_py": Build, "bdist_wheel": Wheel}, distclass=WithLibraries)
+setup(version=version(), cmdclass={"build_py": Build, "bdist_wheel": Wheel, "sdist": Archive}, distclass=WithLibraries)

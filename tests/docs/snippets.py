@@ -30,7 +30,6 @@ AROUND = {
                               "knurl_material_desc ice; knurl_material_desc_init(&ice, sizeof ice);\n", "}\n"),
     ("README.md", "cmake"): ("cmake_minimum_required(VERSION 3.16)\nproject(game LANGUAGES C CXX)\n"
                              "add_executable(game game.c)\n", ""),
-    ("bindings/python/README.md", "python"): ("import numpy as np\npositions = np.zeros((10, 3))\n", ""),
     ("bindings/godot/addons/knurl/README.md", "gdscript"): ("extends Node3D\n", ""),
     ("bindings/godot/addons/knurl/README.md", "csharp"): ("using Godot;\nclass Shown : Node { void Ready() {\n", "} }\n"),
 }

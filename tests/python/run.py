@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Builds the Python module's wheel as pip does, installs it into an empty environment, and runs its tests and example.
+"""Makes the Python module's source archive, builds its wheel from that alone, installs it into an empty environment, and runs
+its tests, example and notebooks; then installs the archive to be edited in place.
 usage: run.py SOURCE BUILD FOLDER C_COMPILER CXX_COMPILER C_FLAGS CXX_FLAGS KNURL
 BUILD: KNURL's; beside it the libraries are built (see tests/package/installed.py); FOLDER: kept for the next time;
 C_FLAGS, CXX_FLAGS: of that build, whose objects ccache then has. Exit 77: a package is missing.
@@ -7,17 +8,20 @@ SPDX-License-Identifier: MIT"""
 import glob
 import importlib.util
 import os
+import re
 import shutil
 import subprocess
 import sys
+import zipfile
 
 SOURCE, BUILD, FOLDER, CC, CXX, C_FLAGS, CXX_FLAGS, KNURL = sys.argv[1:]
 PACKAGES = {"cffi": "python3-cffi", "numpy": "python3-numpy", "setuptools": "python3-setuptools",
-            "wheel": "python3-wheel", "pip": "python3-pip", "ensurepip": "python3-venv"}
+            "wheel": "python3-wheel", "pip": "python3-pip", "ensurepip": "python3-venv", "mypy": "mypy",
+            "pandas": "python3-pandas", "matplotlib": "python3-matplotlib"}
 
 
-def run(*command):
-    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, cwd=FOLDER,
+def run(*command, where=FOLDER):
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, cwd=where,
                           env={**os.environ, "CC": CC, "CXX": CXX, "CMAKE_GENERATOR": "Ninja",
                                "KNURL_BUILD_FOLDER": f"{BUILD}-python", "CMAKE_ARGS":
                                f"-DCMAKE_C_FLAGS_RELEASE='{C_FLAGS}' -DCMAKE_CXX_FLAGS_RELEASE='{CXX_FLAGS}' "
@@ -36,6 +40,39 @@ def link_module(folder):
         if name != "build" and not name.endswith(".egg-info") and not os.path.lexists(link):
             os.symlink(os.path.join(module, name), link)
     return folder
+
+
+def unpack_archive():
+    """Makes the source archive and unpacks it; returns its folder, whose path is the same each time for ccache."""
+    made, unpacked = os.path.join(FOLDER, "archive"), os.path.join(FOLDER, "unpacked")
+    for path in (made, unpacked):
+        shutil.rmtree(path, ignore_errors=True)
+    run(sys.executable, "setup.py", "-q", "sdist", "--dist-dir", made, where=link_module(os.path.join(FOLDER, "python")))
+    archive, = glob.glob(os.path.join(made, "*.tar.gz"))
+    print(f"python: {os.path.basename(archive)}, {os.path.getsize(archive) // 1000} kB")
+    shutil.unpack_archive(archive, unpacked)
+    folder, = glob.glob(os.path.join(unpacked, "*"))
+    return folder
+
+
+def check_wheel(wheel):
+    """Its tag is that of the C library that it needs, and it has the licences of what is linked in."""
+    name, names = os.path.basename(wheel), zipfile.ZipFile(wheel).namelist()
+    licences = {os.path.basename(path) for path in names if "/licences/" in path}
+    if not re.search(r"-py3-none-manylinux_2_\d+_\w+\.whl$", name) or licences != {"LICENSE", "THIRD_PARTY.md"}:
+        sys.exit(f"python: {name}: expected a tag manylinux_2_N and two files of licences, found {sorted(licences)}")
+    print(f"python: {name}, {os.path.getsize(wheel) // 1000} kB")
+
+
+def edit_in_place(source, environment):
+    """As `pip install -e`: a change of the sources is a change of the module."""
+    python = os.path.join(environment, "bin/python")
+    run(sys.executable, "-m", "venv", "--clear", "--system-site-packages", environment)
+    run(python, "-m", "pip", "install", "--no-build-isolation", "--no-deps", "--no-index", "-e", source)
+    with open(os.path.join(source, "knurl/metrics.py"), "a", encoding="utf-8") as file:
+        file.write("EDITED = 1\n")
+    run(python, "-B", "-c", "import knurl; assert knurl.metrics.EDITED; knurl.Scene().close()")
+    print("python: an editable installation is edited in place")
 
 
 def run_shown(python):
@@ -57,16 +94,20 @@ def main():
     wheels, environment = os.path.join(FOLDER, "wheels"), os.path.join(FOLDER, "environment")
     for path in (wheels, environment):
         shutil.rmtree(path, ignore_errors=True)
-    run(sys.executable, "-m", "pip", "wheel", "--no-build-isolation", "--no-deps", "--no-index", "--wheel-dir", wheels,
-        link_module(os.path.join(FOLDER, "python")))
+    source = unpack_archive()
+    run(sys.executable, "-m", "pip", "wheel", "--no-build-isolation", "--no-deps", "--no-index", "--wheel-dir", wheels, source)
     wheel, = glob.glob(os.path.join(wheels, "*.whl"))
-    print(f"python: {os.path.basename(wheel)}, {os.path.getsize(wheel) // 1000} kB")
+    check_wheel(wheel)
     run(sys.executable, "-m", "venv", "--system-site-packages", environment) # numpy and cffi are the system's
     python = os.path.join(environment, "bin/python")
     run(python, "-m", "pip", "install", "--no-index", wheel)
     print(run(python, "-B", os.path.join(SOURCE, "bindings/python/examples/stroke.py")).strip())
     run_shown(python)
-    print(run(python, "-B", os.path.join(SOURCE, "tests/python/test_knurl.py"), "-v", KNURL, os.path.join(SOURCE, "assets")))
+    run(sys.executable, "-m", "mypy", "--config-file", os.path.join(source, "pyproject.toml"), os.path.join(source, "knurl"))
+    for test in sorted(glob.glob(os.path.join(SOURCE, "tests/python/test_*.py"))):
+        print(run(python, "-B", test, "-v", KNURL, os.path.join(SOURCE, "assets")))
+    print(run(python, "-B", os.path.join(SOURCE, "bindings/python/notebooks/execute.py"), "--check", FOLDER).strip())
+    edit_in_place(source, environment)
 
 
 main()

@@ -74,7 +74,10 @@ class Module(unittest.TestCase):
         device.lay_stroke(scene, surfaces[0])
         loop = knurl.Loop(scene, device, tick_limit=2000)
         loop.step(2000)
-        self.assertEqual(loop.stats, {"state": "done", "ticks": 2000, "overruns": 0})
+        stats = loop.stats
+        self.assertEqual((stats["state"], stats["ticks"], stats["overruns"], stats["watchdog_trips"]), ("done", 2000, 0, 0))
+        self.assertGreater(stats["tick_ns"]["p99"], 0.0)
+        self.assertEqual(repr(loop), "<knurl.Loop: done, 2000 ticks at 1000 Hz>")
         self.assertGreater(scene.latest()[1]["contact_ticks"], 1000)
 
     def test_a_files_name_need_not_be_utf8(self):
@@ -144,7 +147,10 @@ class Module(unittest.TestCase):
                     if name == "pcc":
                         np.testing.assert_allclose(list(found[name].values()), list(printed[name].values()), atol=1e-12)
                     else:
-                        np.testing.assert_allclose(found[name], printed[name], rtol=1e-9, atol=1e-12, err_msg=name)
+                        # the tool's spectra are single precision
+                        tones = {"false_tones", "felt_false_tones"}
+                        np.testing.assert_allclose(found[name], printed[name], rtol=1e-5 if name in tones else 1e-9,
+                                                   atol=1e-6 if name in tones else 1e-12, err_msg=name)
 
     def test_metrics_of_signals_with_a_closed_form(self):
         square = knurl.metrics.wave("T1", 0.01, 2.0)
@@ -156,7 +162,7 @@ class Module(unittest.TestCase):
         line = knurl.metrics.dominant(tone, 1000.0)
         np.testing.assert_allclose([line["hz"], line["amplitude"]], [50.0, 0.3 * np.sinc(0.05)])
         steady = knurl.metrics.steady(tone + 0.1, 1000.0, 50.0)
-        np.testing.assert_allclose([steady["fundamental"], steady["net_50ms"]], [0.3, 0.1])
+        np.testing.assert_allclose([steady["level"], steady["push"], steady["net"]], [0.3, 0.1, 0.1])
         np.testing.assert_allclose(knurl.metrics.pcc(tone, np.cos(2 * np.pi * 50.0 * t)), 0.0, atol=1e-12)
         np.testing.assert_allclose(knurl.metrics.pcc(square, -3.0 * square), -1.0)
         self.assertEqual(len(knurl.metrics.wave("T3", 0.01, ticks=25)), 25)
@@ -168,6 +174,8 @@ class Module(unittest.TestCase):
             knurl.metrics.wave("T1", -1.0)
         with self.assertRaisesRegex(ValueError, "finite numbers"):
             knurl.metrics.dominant([1.0, float("nan")], 1000.0)
+        with self.assertRaisesRegex(ValueError, "cycles: expected a number for each of 3 values, found 2"):
+            knurl.metrics.step([1.0, -1.0, 1.0], [0.0, 0.5])
         with self.assertRaisesRegex(ValueError, "50 ms"):
             knurl.metrics.steady([1.0, 2.0], 1000.0, 50.0)
 

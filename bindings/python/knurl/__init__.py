@@ -4,9 +4,12 @@ SI units, right-handed axes. The library's own headers say more of every quantit
 it, by cffi. SPDX-License-Identifier: MIT"""
 from . import metrics
 from ._library import KnurlError, arrays_of, check, ffi, lib, version
-from .device import Device, Loop
+from .callbacks import Sample
+from .device import Device, Event, Listing, Loop, devices
 from .scene import Material, Scene, Surface
+from .signals import Grating, Velocity
+from .ticks import Ticks, Verdict, as_ticks
 
-__all__ = ["Device", "KnurlError", "Loop", "Material", "Scene", "Surface", "arrays_of", "check", "ffi", "lib", "metrics",
-           "version"]
+__all__ = ["Device", "Event", "Grating", "KnurlError", "Listing", "Loop", "Material", "Sample", "Scene", "Surface", "Ticks",
+           "Velocity", "Verdict", "arrays_of", "as_ticks", "check", "devices", "ffi", "lib", "metrics", "version"]
 __version__ = version()

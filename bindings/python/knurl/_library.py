@@ -1,7 +1,9 @@
 """The libraries, loaded, and their structs as numpy types. SPDX-License-Identifier: MIT"""
+import atexit
 import glob
 import os
-from typing import Any, Dict, NoReturn
+import weakref
+from typing import Any, Dict, Iterable, NoReturn, TypeVar
 
 import cffi
 import numpy as np
@@ -14,13 +16,15 @@ with open(os.path.join(_FOLDER, "interface.h"), encoding="utf-8") as _file:
 
 
 class _Library:
-    """Both libraries' functions and constants under one name."""
+    """All libraries' functions and constants under one name."""
 
     def __init__(self) -> None:
-        self._parts = [ffi.dlopen(glob.glob(os.path.join(_FOLDER, f"lib{name}.so.*"))[0]) for name in ("knurl", "knurl_gltf")]
+        core, gltf, record = (ffi.dlopen(glob.glob(os.path.join(_FOLDER, f"lib{name}.so*"))[0])
+                              for name in ("knurl", "knurl_gltf", "knurl_record"))
+        self._parts = {"knurl_gltf_": gltf, "knurl_record_": record, "": core}
 
     def __getattr__(self, name: str) -> Any:
-        part = self._parts[name.startswith("knurl_gltf_")]
+        part = next(part for prefix, part in self._parts.items() if name.startswith(prefix))
         value = getattr(part, name)
         setattr(self, name, value)
         return value
@@ -30,15 +34,14 @@ lib = _Library()
 
 
 class KnurlError(Exception):
-    """What went wrong, in the library's words. code: KNURL_ERROR_, as `knurl.lib` has them."""
+    """A failed call: `code` (KNURL_ERROR_ in `knurl.lib`), and the library's message as its text."""
 
     def __init__(self, code: int, message: str) -> None:
-        super().__init__(message)
+        super().__init__(code, message) # all arguments: an exception is pickled as its class and its args
         self.code = code
 
-
-def _fail(code: int) -> NoReturn:
-    raise KnurlError(code, ffi.string(lib.knurl_error_message()).decode())
+    def __str__(self) -> str:
+        return str(self.args[1])
 
 
 def check(result: int) -> None:
@@ -47,25 +50,35 @@ def check(result: int) -> None:
         _fail(result)
 
 
+def _fail(code: int) -> NoReturn:
+    raise KnurlError(code, ffi.string(lib.knurl_error_message()).decode())
+
+
+def refuse(message: str) -> NoReturn:
+    """Raises KnurlError for a call that is not allowed in the object's state."""
+    raise KnurlError(lib.KNURL_ERROR_STATE, message)
+
+
 def version() -> str:
     """The library's, "major.minor.patch"."""
-    return ffi.string(lib.knurl_version_string()).decode()
+    return str(ffi.string(lib.knurl_version_string()).decode())
 
 
 _KINDS = {"double": "f8", "float": "f4", "uint64_t": "u8", "int64_t": "i8", "uint32_t": "u4", "int32_t": "i4"}
 
 
 def arrays_of(struct: str) -> np.dtype:
-    """The numpy type of a struct of numbers, such as "knurl_tick_output"."""
-    fields: Dict[str, Any] = {"names": [], "formats": [], "offsets": [], "itemsize": ffi.sizeof(struct)}
+    """The numpy type of a struct of numbers, such as "knurl_tick_output", without its reserved fields."""
+    fields: Any = {"names": [], "formats": [], "offsets": [], "itemsize": ffi.sizeof(struct)}
     for name, field in ffi.typeof(struct).fields:
         shape, kind = [], field.type
         while kind.kind == "array":
             shape.append(kind.length)
             kind = kind.item
-        fields["names"].append(name)
-        fields["formats"].append((_KINDS[kind.cname], tuple(shape)))
-        fields["offsets"].append(field.offset)
+        if name != "reserved":
+            fields["names"].append(name)
+            fields["formats"].append((_KINDS[kind.cname], tuple(shape)))
+            fields["offsets"].append(field.offset)
     return np.dtype(fields)
 
 
@@ -74,3 +87,78 @@ def described(struct: str) -> Any:
     desc = ffi.new(struct + " *")
     getattr(lib, struct + "_init")(desc, ffi.sizeof(struct))
     return desc
+
+
+def fill(desc: Any, values: Dict[str, Any]) -> None:
+    """Sets a struct's fields by name; a name that it has not is a TypeError with the names that it has."""
+    known = [name for name, _ in ffi.typeof(desc).item.fields if name not in ("struct_size", "reserved")]
+    for name, value in values.items():
+        if name not in known:
+            raise TypeError(f"{ffi.typeof(desc).item.cname} has no field {name!r}: expected one of {', '.join(known)}")
+        setattr(desc, name, value)
+
+
+def to_python(value: Any) -> Any:
+    """A struct as a dictionary, an array of numbers as a tuple, text as str, and numbers as they are."""
+    if not isinstance(value, ffi.CData):
+        return value
+    kind = ffi.typeof(value)
+    if kind.kind == "pointer" and kind.item.kind == "struct":
+        value, kind = value[0], kind.item
+    if kind.kind == "struct":
+        return {name: to_python(getattr(value, name)) for name, _ in kind.fields if name not in ("struct_size", "reserved")}
+    if kind.kind == "array" and kind.item.cname != "char":
+        return tuple(value)
+    return ffi.string(value).decode(errors="replace") if value else ""
+
+
+Self = TypeVar("Self", bound="Owner")
+_open: "weakref.WeakSet[Owner]" = weakref.WeakSet()
+
+
+class Owner:
+    """An object of the library's. It is given back by close(), at the end of a `with`, when nobody refers to it any more, or
+    when Python ends. While another thread is within a call on it, close() takes effect at the end of that call."""
+
+    _order = 0 # of closing when Python ends: a loop before its device, for its thread may call Python
+    _handle: Any = None
+    _closed_because = "closed"
+
+    def _own(self, pointer: Any, release: Any) -> None:
+        # Each call holds its own reference to the pointer, and the last one releases it.
+        self._handle = ffi.gc(pointer, release)
+        _open.add(self)
+
+    @property
+    def handle(self) -> Any:
+        """The pointer, for `knurl.lib`."""
+        handle = self._handle
+        if handle is None:
+            refuse(f"{type(self).__name__}: {self._closed_because}")
+        return handle
+
+    @property
+    def closed(self) -> bool:
+        return self._handle is None
+
+    def close(self) -> None:
+        """Gives it back. May be repeated."""
+        self._handle = None
+
+    def __enter__(self: Self) -> Self:
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        self.close()
+
+
+def open_objects(kind: type) -> Iterable[Any]:
+    return [owner for owner in list(_open) if isinstance(owner, kind) and not owner.closed]
+
+
+@atexit.register
+def _close_all() -> None:
+    for owner in sorted(open_objects(Owner), key=lambda owner: int(owner._order)):
+        owner.close()
+
+

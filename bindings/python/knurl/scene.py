@@ -1,16 +1,20 @@
 """Scenes of surfaces, and their ticks. SPDX-License-Identifier: MIT"""
 import os
+import threading
 from dataclasses import dataclass
-from typing import Any, List, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, Iterable, Iterator, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._library import arrays_of, check, described, ffi, lib
+from ._library import Owner, arrays_of, check, described, ffi, fill, lib, refuse, to_python
+from .callbacks import in_callback
+from .ticks import OUTPUTS, Ticks, as_ticks, copy_fields, packed
 
 _INPUTS = arrays_of("knurl_tick_input")
-_OUTPUTS = arrays_of("knurl_tick_output")
 _COUNTS = arrays_of("knurl_hip_counts")
+_CONTACTS = arrays_of("knurl_hip_contact")
+_CHUNK = 1024 # ticks of a call: enough that it costs nothing beside them, few enough to stay in the cache
 
 
 def _tuple_of(values: ArrayLike, count: int, what: str) -> List[float]:
@@ -25,6 +29,13 @@ def _rows(values: ArrayLike, columns: int, kind: str, what: str) -> np.ndarray:
     if array.ndim != 2 or array.shape[1] != columns:
         raise ValueError(f"{what}: expected an array of shape (n, {columns}), found {array.shape}")
     return array
+
+
+def _method(name: Optional[str]) -> int:
+    method = ffi.new("int32_t *")
+    if name is not None:
+        check(lib.knurl_method_from_name(name.encode(), method))
+    return int(method[0]) # 0: the default
 
 
 @dataclass
@@ -44,11 +55,14 @@ class Material:
         for name in ("stiffness", "amplitude", "damping", "friction", "orientation"):
             setattr(desc, name, getattr(self, name))
         desc.spatial_frequency = _tuple_of(self.spatial_frequency, 2, "spatial_frequency")
-        if self.method is not None:
-            method = ffi.new("int32_t *")
-            check(lib.knurl_method_from_name(self.method.encode(), method))
-            desc.method = method[0]
+        desc.method = _method(self.method)
         return desc
+
+    @classmethod
+    def _of(cls, desc: Any) -> "Material":
+        values = to_python(desc)
+        values["method"] = ffi.string(lib.knurl_method_name(values["method"])).decode()
+        return cls(**values)
 
 
 class Surface:
@@ -58,11 +72,45 @@ class Surface:
         self._scene = scene
         self.id = surface_id
 
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Surface) and (self._scene, self.id) == (other._scene, other.id)
+
+    def __hash__(self) -> int:
+        return hash(self.id)
+
+    def __repr__(self) -> str:
+        exists = not self._scene.closed and lib.knurl_scene_has_surface(self._scene.handle, self.id)
+        return f"<knurl.Surface {self.name!r}, id {self.id}>" if exists else f"<knurl.Surface, id {self.id}: no longer there>"
+
     @property
     def name(self) -> str:
         name = ffi.new("const char **")
         check(lib.knurl_scene_get_surface_name(self._scene.handle, self.id, name))
         return ffi.string(name[0]).decode()
+
+    @property
+    def material(self) -> Material:
+        """As it is rendered: the default method is resolved."""
+        desc = described("knurl_material_desc")
+        check(lib.knurl_scene_get_material(self._scene.handle, self.id, desc))
+        return Material._of(desc)
+
+    @material.setter
+    def material(self, material: Material) -> None:
+        self.set_material(material)
+
+    @property
+    def info(self) -> Dict[str, Any]:
+        """As built by the scene: the fields of knurl_surface_info."""
+        info = described("knurl_surface_info")
+        check(lib.knurl_scene_get_surface_info(self._scene.handle, self.id, info))
+        return dict(to_python(info))
+
+    def limits(self, hip: int = 0) -> str:
+        """The limits of the HIP's device that it exceeds, a sentence each; "" if there is none."""
+        found = described("knurl_surface_check")
+        check(lib.knurl_scene_check_surface(self._scene.handle, hip, self.id, found))
+        return str(to_python(found.message))
 
     def set_material(self, material: Material) -> None:
         check(lib.knurl_scene_set_material(self._scene.handle, self.id, material._desc()))
@@ -76,20 +124,69 @@ class Surface:
         check(lib.knurl_scene_remove_surface(self._scene.handle, self.id))
 
 
-class Scene:
-    """Surfaces and HIPs. Add surfaces, commit, tick. It is freed when nobody refers to it any more."""
+class _Hip:
+    """A HIP's tick buffers, which one thread at a time may use: in a `with`, another one is refused."""
+
+    def __init__(self, number: int) -> None:
+        self.number, self.rate = number, 1000.0
+        self.has_more = False # than positions in `inputs`
+        self.loop: Any = None # a weak reference to the one that ticks it on a thread of its own
+        self._lock = threading.Lock()
+        self.inputs: np.ndarray = np.zeros(0, _INPUTS)
+
+    def __enter__(self) -> "_Hip":
+        if not self._lock.acquire(blocking=False):
+            refuse(f"hip {self.number}: expected one thread at a time, found a call while another thread ticks it")
+        if len(self.inputs) == 0:
+            self.inputs, self.outputs = np.zeros(_CHUNK, _INPUTS), np.zeros(_CHUNK, OUTPUTS)
+            self.position, self.velocity, self.has_velocity, self.absent = (
+                self.inputs[name] for name in ("position", "velocity", "has_velocity", "absent"))
+            self.input = ffi.from_buffer("knurl_tick_input[]", self.inputs)
+            self.output = ffi.from_buffer("knurl_tick_output[]", self.outputs)
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        self._lock.release()
+
+    def fill(self, positions: np.ndarray, velocities: Optional[np.ndarray], absent: Optional[np.ndarray]) -> None:
+        count = len(positions)
+        self.position[:count] = positions
+        if self.has_more: # of an earlier call
+            self.has_velocity[:], self.absent[:], self.has_more = 0, 0, False
+        if velocities is not None:
+            self.velocity[:count], self.has_velocity[:count], self.has_more = velocities, 1, True
+        if absent is not None:
+            self.absent[:count], self.has_more = absent, True
+
+
+class Scene(Owner):
+    """Surfaces and HIPs. Add surfaces, commit, tick. Threads may share a scene; a HIP is ticked by one at a time."""
+
+    _order = 2
 
     def __init__(self, hips: int = 1, max_surfaces: int = 4096) -> None:
         desc = described("knurl_scene_desc")
         desc.hip_count, desc.max_surfaces = hips, max_surfaces
         scene = ffi.new("knurl_scene **")
         check(lib.knurl_scene_create(desc, scene))
-        self.handle = ffi.gc(scene[0], lib.knurl_scene_destroy)
+        self._own(scene[0], lib.knurl_scene_destroy)
+        self._hips = [_Hip(hip) for hip in range(hips)]
+
+    def __repr__(self) -> str:
+        if self.closed:
+            return "<knurl.Scene: closed>"
+        count = lib.knurl_scene_get_surface_count(self.handle)
+        return f"<knurl.Scene: {count} surface{'s' if count != 1 else ''}, {len(self._hips)} HIP{'s' if len(self._hips) > 1 else ''}>"
+
+    def _hip(self, hip: int) -> _Hip:
+        if not 0 <= hip < len(self._hips):
+            raise ValueError(f"hip: expected 0 to {len(self._hips) - 1}, found {hip}")
+        return self._hips[hip]
 
     def add_plane(self, half_extents: ArrayLike = (0.05, 0.05), material: Optional[Material] = None,
                   **pose: Any) -> Surface:
-        """A rectangle whose front looks along its z. pose: name, position, rotation or
-        normal, axis, double_sided."""
+        """A rectangle whose front looks along its z. pose: name, position, rotation or normal, axis,
+        double_sided."""
         plane = described("knurl_plane_desc")
         plane.half_extents = _tuple_of(half_extents, 2, "half_extents")
         return self._add("plane", plane, material, **pose)
@@ -143,37 +240,69 @@ class Scene:
         """Sets a HIP up anew. workspace: (origin, rotation matrix, scale), device to scene, where the scene is not to
         choose it. values: other fields of knurl_hip_desc, such as update_rate_hz, resolution, max_force, protections."""
         desc = described("knurl_hip_desc")
-        for name, value in values.items():
-            setattr(desc, name, value)
+        fill(desc, values)
         if workspace is not None:
             origin, rotation, scale = workspace
             place = ffi.new("knurl_workspace *")
             place.origin, place.scale = _tuple_of(origin, 3, "origin"), float(scale) # type: ignore[arg-type]
             place.rotation = _tuple_of(np.asarray(rotation, dtype=float).ravel(), 9, "rotation")
             desc.workspace = place
-        check(lib.knurl_scene_configure_hip(self.handle, hip, desc))
+        with self._hip(hip) as own:
+            check(lib.knurl_scene_configure_hip(self.handle, hip, desc))
+            own.rate = desc.update_rate_hz if desc.update_rate_hz > 0.0 else 1000.0 # KNURL_DEFAULT
 
     def commit(self) -> None:
         """Once, after the first surfaces: from then on the scene ticks."""
         check(lib.knurl_scene_commit(self.handle))
 
-    def tick(self, positions: ArrayLike, velocities: Optional[ArrayLike] = None, hip: int = 0) -> np.ndarray:
-        """A tick a row of positions (n, 3), device axes, m; velocities (n, 3), m/s, where they are known. Returns n rows
-        of knurl_tick_output, with its names: "force" (n, 3), "depth" (n), "surface" (n) ... All in one call."""
+    def tick(self, positions: ArrayLike, velocities: Optional[ArrayLike] = None, hip: int = 0,
+             fields: Optional[Sequence[str]] = None) -> Ticks:
+        """A tick a row of positions (n, 3), device axes, m; velocities (n, 3), m/s, if they are known. In rows that a masked
+        array masks the HIP is absent: no force, and contacts end. Returns n rows of knurl_tick_output, with its names:
+        "force" (n, 3), "depth" (n), "surface" (n) ...; fields: only these, which saves memory (all are 288 bytes)."""
         rows = _rows(positions, 3, "f8", "positions")
-        inputs, outputs = np.zeros(len(rows), _INPUTS), np.zeros(len(rows), _OUTPUTS)
-        inputs["position"] = rows
-        if velocities is not None:
-            inputs["velocity"] = np.broadcast_to(_rows(velocities, 3, "f8", "velocities"), rows.shape)
-            inputs["has_velocity"] = 1
-        check(lib.knurl_scene_tick_batch(self.handle, hip, ffi.from_buffer("knurl_tick_input[]", inputs), len(rows),
-                                         ffi.from_buffer("knurl_tick_output[]", outputs)))
-        return outputs
+        given = None if velocities is None else np.broadcast_to(_rows(velocities, 3, "f8", "velocities"), rows.shape)
+        absent = np.ma.getmaskarray(positions).any(axis=1) if isinstance(positions, np.ma.MaskedArray) else None
+        results = np.empty(len(rows), OUTPUTS if fields is None else packed(fields))
+        handle = self.handle
+        with self._hip(hip) as own:
+            whole = ffi.from_buffer("knurl_tick_output[]", results) if fields is None else None
+            for begin in range(0, len(rows), _CHUNK) or (0,):
+                end = min(len(rows), begin + _CHUNK)
+                own.fill(rows[begin:end], None if given is None else given[begin:end],
+                         None if absent is None else absent[begin:end])
+                check(lib.knurl_scene_tick_batch(handle, hip, own.input, end - begin, own.output if whole is None else whole + begin))
+                if whole is None:
+                    copy_fields(own.outputs[:end - begin], results[begin:end])
+            return as_ticks(results, own.rate)
+
+    def chunks(self, positions: Union[ArrayLike, Iterable[ArrayLike]], rows: int = 65536, hip: int = 0,
+               fields: Optional[Sequence[str]] = None) -> Iterator[Ticks]:
+        """The same ticks in parts of so many rows, for more of them than memory has room for. positions: an array, such as
+        a np.memmap, or an iterator of arrays, each of which is a part."""
+        parts = (iter(positions) if isinstance(positions, Iterator) else
+                 (positions[begin:begin + rows] for begin in range(0, len(positions), rows))) # type: ignore
+        for part in parts:
+            yield self.tick(part, hip=hip, fields=fields)
 
     def latest(self, hip: int = 0) -> Tuple[np.ndarray, np.ndarray]:
         """The latest tick and the counts so far, also while a loop ticks the scene: a row of knurl_tick_output and one of
         knurl_hip_counts."""
-        output, counts = np.zeros(1, _OUTPUTS), np.zeros(1, _COUNTS)
+        output, counts = np.zeros(1, OUTPUTS), np.zeros(1, _COUNTS)
         check(lib.knurl_scene_get_tick(self.handle, hip, ffi.from_buffer("knurl_tick_output[]", output),
                                        ffi.from_buffer("knurl_hip_counts[]", counts)))
         return output[0], counts[0]
+
+    def contacts(self, hip: int = 0) -> np.ndarray:
+        """All contacts of the HIP's last tick, rows of knurl_hip_contact: "surface", "proxy", "normal", "depth". While a loop
+        ticks the HIP, only within its tick_callback."""
+        found = np.zeros(lib.KNURL_CONTACTS_MAX, _CONTACTS)
+        own = self._hip(hip)
+        loop = own.loop and own.loop()
+        if loop and not loop.closed and not in_callback():
+            refuse(f"hip {hip}: expected a call within the loop's tick_callback, for its thread ticks the HIP")
+        pointer = ffi.from_buffer("knurl_hip_contact[]", found)
+        if in_callback(): # on the thread that has the HIP
+            return found[:lib.knurl_scene_get_contacts(self.handle, hip, pointer, len(found))]
+        with own:
+            return found[:lib.knurl_scene_get_contacts(self.handle, hip, pointer, len(found))]

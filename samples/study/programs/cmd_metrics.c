@@ -40,9 +40,11 @@ static int print_steady(json_writer *json, const tool_wave *asked, const study_s
     }
     const int measured = values && steady_measure(values, ticks, asked->rate, 1.0 / asked->period_s, &steady);
     if (measured) {
-        json_number(json, "fundamental", steady.level);
-        json_number(json, "unevenness", steady.wavering);
-        json_number(json, "net_50ms", steady.push);
+        json_number(json, "level", steady.level);
+        json_number(json, "wavering", steady.wavering);
+        json_number(json, "push", steady.push);
+        json_number(json, "false_tones", steady.false_tones);
+        json_number(json, "felt_false_tones", steady.felt_false);
     }
     free(values);
     return measured;

@@ -1,0 +1,158 @@
+"""Python functions that a device or a loop calls. Their C sides are made once and never freed, so that no thread can call
+one that is gone; `user` leads to what Python wants to be called. SPDX-License-Identifier: MIT"""
+import threading
+from typing import Any, Callable, Dict, NamedTuple, Optional, Tuple
+
+import numpy as np
+
+from ._library import ffi, lib
+from .ticks import OUTPUTS
+
+_kept: Dict[Any, Any] = {} # by the pointer that C has, until C has said its last
+_thread = threading.local()
+
+
+class Sample(NamedTuple):
+    """A device's reading: position in m, device axes; buttons, bit 0 is the first; orientation of the stylus, a quaternion
+    x, y, z, w, zeros if it is not measured."""
+
+    position: Tuple[float, float, float]
+    buttons: int = 0
+    orientation: Tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
+
+
+class Calls:
+    """The functions of one loop, and the first exception that one of them raised."""
+
+    def __init__(self, force: Optional[Callable[..., Any]], tick: Optional[Callable[..., Any]], record: Any) -> None:
+        self.force, self.tick, self.record = force, tick, record
+        self.error: Optional[BaseException] = None
+        self.loop: Any = None # the C pointer, set before a thread can call
+
+
+def keep(subject: Any) -> Any:
+    """A `user` pointer that leads to a subject, until let_go()."""
+    user = ffi.new_handle(subject)
+    _kept[user] = subject
+    return user
+
+
+def let_go(user: Any) -> None:
+    _kept.pop(user, None)
+
+
+def in_callback() -> bool:
+    """Whether this thread is within a loop's callback."""
+    return getattr(_thread, "inside", False)
+
+
+def _call(calls: Calls, function: Callable[..., Any], *arguments: Any) -> Any:
+    """None after an exception, which ends the loop and is raised by the loop's next wait(), step(), stop() or close()."""
+    if calls.error is not None:
+        return None
+    _thread.inside = True
+    try:
+        return function(*arguments)
+    except BaseException as error: # pylint: disable=broad-except
+        calls.error = error
+        lib.knurl_loop_request_stop(calls.loop)
+        return None
+    finally:
+        _thread.inside = False
+
+
+def _three(force: np.ndarray, to: Any) -> None:
+    values = np.asarray(force, dtype=float)
+    if values.shape != (3,):
+        raise ValueError(f"force: expected 3 numbers, found an array of shape {values.shape}")
+    to[0:3] = values.tolist()
+
+
+@ffi.callback("void(uint64_t, const knurl_device_sample *, double *, void *)")
+def force_callback(tick: int, sample: Any, force: Any, user: Any) -> None:
+    calls, (x, y, z), turned = ffi.from_handle(user), sample.position, sample.orientation
+    force[0] = force[1] = force[2] = 0.0
+    _call(calls, lambda: _three(calls.force(tick, Sample((x, y, z), sample.buttons, (*turned,))), force)) # type: ignore
+
+
+@ffi.callback("void(const knurl_tick_output *, void *)")
+def tick_callback(output: Any, user: Any) -> None:
+    calls = ffi.from_handle(user)
+    if calls.record is not None:
+        lib.knurl_record_put(output, calls.record)
+    _call(calls, lambda: calls.tick(np.frombuffer(ffi.buffer(output), OUTPUTS)[0].copy()))
+
+
+class Functions:
+    """A caller's own device."""
+
+    def __init__(self, read: Callable[[], Any], write: Callable[..., Any], info: Dict[str, Any],
+                 start: Optional[Callable[[float], Any]], reopen: Optional[Callable[[], Any]],
+                 close: Optional[Callable[[], Any]]) -> None:
+        self.read, self.write, self.info, self.start, self.reopen, self.close = read, write, info, start, reopen, close
+        self.error: Optional[BaseException] = None
+
+    def guarded(self, function: Callable[[], int]) -> int:
+        """An exception is a lost device; the first one is kept for Device.error."""
+        try:
+            return function()
+        except BaseException as error: # pylint: disable=broad-except
+            self.error = self.error or error
+            return int(lib.KNURL_ERROR_DEVICE_LOST)
+
+
+@ffi.callback("void(void *, knurl_device_info *)")
+def _get_info(user: Any, info: Any) -> None:
+    for name, value in ffi.from_handle(user).info.items():
+        setattr(info, name, value)
+
+
+def _take_sample(device: Functions, to: Any) -> int:
+    found = device.read()
+    if found is None:
+        return int(lib.KNURL_ERROR_DEVICE_NOT_READY)
+    sample = found if isinstance(found, Sample) else Sample(found)
+    to.position, to.buttons = np.asarray(sample.position, dtype=float).tolist(), sample.buttons
+    to.orientation = list(sample.orientation)
+    return 0
+
+
+@ffi.callback("knurl_result(void *, double)")
+def _start(user: Any, rate: float) -> int:
+    device = ffi.from_handle(user)
+    return int(device.guarded(lambda: (device.start(rate), 0)[1] if device.start else 0))
+
+
+@ffi.callback("knurl_result(void *, knurl_device_sample *)")
+def _read(user: Any, sample: Any) -> int:
+    device = ffi.from_handle(user)
+    return int(device.guarded(lambda: _take_sample(device, sample)))
+
+
+@ffi.callback("knurl_result(void *, const double *)")
+def _write(user: Any, force: Any) -> int:
+    device = ffi.from_handle(user)
+    return int(device.guarded(lambda: (device.write(np.array(ffi.unpack(force, 3))), 0)[1]))
+
+
+@ffi.callback("knurl_result(void *)")
+def _reopen(user: Any) -> int:
+    device = ffi.from_handle(user)
+    return int(device.guarded(lambda: (device.reopen(), 0)[1]))
+
+
+@ffi.callback("void(void *)")
+def _close(user: Any) -> None:
+    device = ffi.from_handle(user)
+    if device.close:
+        device.guarded(lambda: (device.close(), 0)[1])
+    let_go(user)
+
+
+def fill_functions(functions: Any, device: Functions) -> Any:
+    """Fills in knurl_device_functions; returns `user`, which knurl_device_close() lets go."""
+    functions.user = user = keep(device)
+    functions.get_info, functions.start, functions.read, functions.write = _get_info, _start, _read, _write
+    functions.reopen = _reopen if device.reopen else ffi.NULL
+    functions.close = _close
+    return user

@@ -1,0 +1,23 @@
+/* A loop's ticks on their way to Python: its haptic thread never waits for Python. SPDX-License-Identifier: MIT */
+#ifndef KNURL_PYTHON_RECORD_H
+#define KNURL_PYTHON_RECORD_H
+
+#include <knurl/scene.h>
+
+/** A ring of ticks with one writer and one reader. Zeroed by its owner, but for rows and capacity. */
+typedef struct knurl_record {
+    knurl_tick_output *rows; /**< `capacity` of them, the owner's */
+    uint64_t capacity;
+    uint64_t written; /**< by the haptic thread */
+    uint64_t read;    /**< by the reader */
+    uint64_t lost;    /**< ticks for which there was no room */
+} knurl_record;
+
+/** Adds a tick, or counts it as lost if the ring is full: a knurl_tick_callback whose `user` is a record. [haptic
+ * thread] */
+KNURL_API void knurl_record_put(const knurl_tick_output *output, void *record);
+
+/** Takes up to `count` of the oldest ticks. Returns the number taken. [one reader at a time] */
+KNURL_API uint64_t knurl_record_take(knurl_record *record, knurl_tick_output *rows, uint64_t count);
+
+#endif
