@@ -2,7 +2,7 @@
 #ifndef KNURL_PYTHON_RECORD_H
 #define KNURL_PYTHON_RECORD_H
 
-#include <knurl/scene.h>
+#include <knurl/hip.h>
 
 /** A ring of ticks with one writer and one reader. Zeroed by its owner, but for rows and capacity. */
 typedef struct knurl_record {

@@ -2,7 +2,7 @@
 #include "json.hpp"
 #include "failure.hpp"
 
-#include <nlohmann/json.hpp>
+#include "nlohmann.hpp"
 
 namespace knurl::gltf {
 

@@ -2,7 +2,7 @@
 #include "json_text.hpp"
 #include "failure.hpp"
 
-#include <nlohmann/json.hpp>
+#include "nlohmann.hpp"
 
 #include <vector>
 

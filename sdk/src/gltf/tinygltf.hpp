@@ -7,7 +7,8 @@
 #define TINYGLTF_NO_STB_IMAGE_WRITE
 #define TINYGLTF_NO_EXTERNAL_IMAGE
 #define TINYGLTF_NO_FS
-#define TINYGLTF_NO_INCLUDE_JSON // as published, the header looks for it in its own folder
+#define TINYGLTF_NO_INCLUDE_JSON                // as published, the header looks for it in its own folder
+#define tinygltf                 knurl_tinygltf // as in nlohmann.hpp
 
 #include <fstream> // missing in the header with NO_FS
 

@@ -225,7 +225,7 @@ static void make_errors(simulated *d, int index) {
     if (d->settings[STUB_RANDOM] > 0.0) {
         for (uint64_t i = random_bits() % 4; i > 0; i--) {
             const uint64_t code = random_bits() % 0x700;
-            push(hd_error_is_loss((uint32_t)code) ? 0x0100 : (uint32_t)code, index);
+            push(knurl_hd_error_is_loss((uint32_t)code) ? 0x0100 : (uint32_t)code, index);
         }
     }
 }

@@ -8,35 +8,35 @@ static const uint32_t codes[] = {0x0100, 0x0101, 0x0102, 0x0103, 0x0104, 0x0200,
 
 TEST(every_error_has_a_sentence_of_its_own) {
     for (size_t i = 0; i < COUNT_OF(codes); i++) {
-        const char *sentence = hd_error_sentence(codes[i]);
+        const char *sentence = knurl_hd_error_sentence(codes[i]);
         assert_true(strlen(sentence) > 10);
-        assert_string_not_equal(sentence, hd_error_sentence(0x9999));
+        assert_string_not_equal(sentence, knurl_hd_error_sentence(0x9999));
         for (size_t j = 0; j < i; j++) {
-            assert_string_not_equal(sentence, hd_error_sentence(codes[j]));
+            assert_string_not_equal(sentence, knurl_hd_error_sentence(codes[j]));
         }
     }
 }
 
 TEST(what_nobody_knows_and_what_gives_no_reason_have_sentences_too) {
-    assert_non_null(strstr(hd_error_sentence(0x9999), "unknown to this version"));
-    assert_non_null(strstr(hd_error_sentence(0xffffffffu), "unknown to this version"));
-    assert_non_null(strstr(hd_error_sentence(0), "no reason"));
+    assert_non_null(strstr(knurl_hd_error_sentence(0x9999), "unknown to this version"));
+    assert_non_null(strstr(knurl_hd_error_sentence(0xffffffffu), "unknown to this version"));
+    assert_non_null(strstr(knurl_hd_error_sentence(0), "no reason"));
 }
 
 TEST(the_sentences_say_what_helps) {
-    assert_non_null(strstr(hd_error_sentence(0x0302), "cable"));
-    assert_non_null(strstr(hd_error_sentence(0x0302), "Touch_AdvancedConfig"));
-    assert_non_null(strstr(hd_error_sentence(0x0303), "GTDD_HOME"));
-    assert_non_null(strstr(hd_error_sentence(0x0203), "warm"));
-    assert_non_null(strstr(hd_error_sentence(0x0200), "rest"));
-    assert_non_null(strstr(hd_error_sentence(0x0600), "licence"));
+    assert_non_null(strstr(knurl_hd_error_sentence(0x0302), "cable"));
+    assert_non_null(strstr(knurl_hd_error_sentence(0x0302), "Touch_AdvancedConfig"));
+    assert_non_null(strstr(knurl_hd_error_sentence(0x0303), "GTDD_HOME"));
+    assert_non_null(strstr(knurl_hd_error_sentence(0x0203), "warm"));
+    assert_non_null(strstr(knurl_hd_error_sentence(0x0200), "rest"));
+    assert_non_null(strstr(knurl_hd_error_sentence(0x0600), "licence"));
 }
 
 TEST(an_error_is_a_loss_or_a_refusal_or_neither) {
     for (size_t i = 0; i < COUNT_OF(codes); i++) {
         const int of_device = (codes[i] & 0xff00) == 0x0300 && codes[i] != 0x0304; /* 0x0304: the scheduler's timer */
-        assert_int_equal(hd_error_is_loss(codes[i]), of_device || codes[i] == 0x0104);
-        assert_int_equal(hd_error_is_refusal(codes[i]), (codes[i] & 0xff00) == 0x0200);
+        assert_int_equal(knurl_hd_error_is_loss(codes[i]), of_device || codes[i] == 0x0104);
+        assert_int_equal(knurl_hd_error_is_refusal(codes[i]), (codes[i] & 0xff00) == 0x0200);
     }
 }
 
@@ -62,11 +62,11 @@ TEST(errors_are_taken_newest_first_until_there_is_none) {
     memset(&api, 0, sizeof api);
     api.next_error = next_error;
     left = 3;
-    assert_int_equal(hd_take_errors(&api, errors), 3);
+    assert_int_equal(knurl_hd_take_errors(&api, errors), 3);
     assert_int_equal(errors[0].code, 0x0303);
     assert_int_equal(errors[2].code, 0x0301);
     assert_int_equal(errors[2].device, 3);
-    assert_int_equal(hd_take_errors(&api, errors), 0);
+    assert_int_equal(knurl_hd_take_errors(&api, errors), 0);
 }
 
 TEST(errors_without_end_are_not_waited_for) {
@@ -76,7 +76,7 @@ TEST(errors_without_end_are_not_waited_for) {
     api.next_error = next_error;
     left = -1;
     answers = 0;
-    assert_int_equal(hd_take_errors(&api, errors), 16);
+    assert_int_equal(knurl_hd_take_errors(&api, errors), 16);
     assert_int_equal(answers, 16);
 }
 

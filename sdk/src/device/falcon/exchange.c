@@ -1,5 +1,5 @@
-/* Exchanges with a Falcon: a frame of motor commands, answered by a frame of encoders. Read falcon_exchange() first.
- * SPDX-License-Identifier: MIT */
+/* Exchanges with a Falcon: a frame of motor commands, answered by a frame of encoders. Read knurl_falcon_exchange()
+ * first. SPDX-License-Identifier: MIT */
 #include "device/falcon/falcon_device.h"
 
 #include "base/vec3.h"
@@ -144,7 +144,7 @@ static void mind_the_guard(falcon *f, int64_t now) {
 }
 
 /* Sends a force and receives a position; copes with missing, late and extra answers. */
-int falcon_exchange(knurl_device *device, const double force[3], knurl_device_sample *sample) {
+int knurl_falcon_exchange(knurl_device *device, const double force[3], knurl_device_sample *sample) {
     falcon *f = (falcon *)(void *)device; /* first member */
     uint32_t frames = 0;
     const int64_t begin = knurl_system_now_ns();

@@ -62,7 +62,7 @@ static knurl_result connect(falcon *f) {
     f->heard_at = knurl_system_now_ns();
     f->exchanged_at = 0;
     result = result ? result : start_guard(f);
-    result = result ? result : knurl_link_open(&f->link, &f->base, falcon_exchange, NATIVE_RATE);
+    result = result ? result : knurl_link_open(&f->link, &f->base, knurl_falcon_exchange, NATIVE_RATE);
     if (result) {
         disconnect(f);
     }

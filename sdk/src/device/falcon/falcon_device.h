@@ -34,6 +34,6 @@ typedef struct falcon {
 } falcon;
 
 /* exchange.c, for knurl_link_open(). */
-int falcon_exchange(knurl_device *device, const double force[3], knurl_device_sample *sample);
+int knurl_falcon_exchange(knurl_device *device, const double force[3], knurl_device_sample *sample);
 
 #endif

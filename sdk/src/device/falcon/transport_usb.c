@@ -198,13 +198,13 @@ static knurl_result usb_open(void *user, knurl_falcon_transport *transport) {
     const knurl_result result = claim(u);
     if (result) {
         if (u->context) {
-            usb_close(u);
+            knurl_usb_close(u);
         } else {
             free(u);
         }
         return result;
     }
-    *transport = usb_transport(u);
+    *transport = knurl_usb_transport(u);
     return KNURL_OK;
 }
 

@@ -54,9 +54,9 @@ typedef struct usb {
 } usb;
 
 /* usb_transfer.c. The functions of a transport over `u`. */
-knurl_falcon_transport usb_transport(usb *u);
+knurl_falcon_transport knurl_usb_transport(usb *u);
 
 /* Cancels pending transfers and frees everything. self: a usb. */
-void usb_close(void *self);
+void knurl_usb_close(void *self);
 
 #endif

@@ -127,7 +127,7 @@ static int usb_read(void *self, uint8_t packet[KNURL_FALCON_PACKET], size_t *cou
     return KNURL_FALCON_DONE;
 }
 
-void usb_close(void *self) {
+void knurl_usb_close(void *self) {
     usb *u = self;
     const int64_t deadline = after_ms(CLOSE_MS);
     u->is_closing = 1;
@@ -177,8 +177,8 @@ static int usb_share(void *self, int32_t *endpoint) {
 }
 #endif
 
-knurl_falcon_transport usb_transport(usb *u) {
-    const knurl_falcon_transport made = {u, usb_control, usb_write, usb_read, usb_close, usb_share};
+knurl_falcon_transport knurl_usb_transport(usb *u) {
+    const knurl_falcon_transport made = {u, usb_control, usb_write, usb_read, knurl_usb_close, usb_share};
     return made;
 }
 

@@ -1,5 +1,5 @@
 /* Exchanges with a raw HID device: a report with motor currents, answered by one with encoder counts. Read
- * rawhid_exchange() first. SPDX-License-Identifier: MIT */
+ * knurl_rawhid_exchange() first. SPDX-License-Identifier: MIT */
 #include "device/rawhid/rawhid_device.h"
 
 #define ANSWER_NS     4000000 /* to wait for a report: an exchange takes 5 ms at most */
@@ -21,7 +21,7 @@ static int take_report(rawhid *r, int milliseconds, knurl_rawhid_in *in) {
     return RAWHID_BAD;
 }
 
-int rawhid_drain(rawhid *r) {
+int knurl_rawhid_drain(rawhid *r) {
     knurl_rawhid_in ignored;
     int outcome = RAWHID_REPORT;
     for (int i = 0; i < QUEUE_ROOM && outcome > RAWHID_NOTHING; i++) {
@@ -30,7 +30,7 @@ int rawhid_drain(rawhid *r) {
     return outcome != RAWHID_GONE;
 }
 
-int rawhid_await(rawhid *r, int64_t ns, knurl_rawhid_in *in) {
+int knurl_rawhid_await(rawhid *r, int64_t ns, knurl_rawhid_in *in) {
     const int64_t until = knurl_system_now_ns() + ns;
     for (int i = 0; i < QUEUE_ROOM; i++) {
         const int64_t left = until - knurl_system_now_ns();
@@ -42,7 +42,7 @@ int rawhid_await(rawhid *r, int64_t ns, knurl_rawhid_in *in) {
     return RAWHID_NOTHING;
 }
 
-int rawhid_send_currents(rawhid *r, const double force[3]) {
+int knurl_rawhid_send_currents(rawhid *r, const double force[3]) {
     uint8_t bytes[KNURL_RAWHID_MOST_BYTES + 1];
     int16_t ma[3] = {0, 0, 0};
     if (r->knows_angles) {
@@ -51,7 +51,7 @@ int rawhid_send_currents(rawhid *r, const double force[3]) {
     return r->port.write(r->port.self, bytes, knurl_rawhid_put_currents(bytes, r->report_bytes, ma));
 }
 
-int rawhid_send_home(rawhid *r) {
+int knurl_rawhid_send_home(rawhid *r) {
     uint8_t bytes[KNURL_RAWHID_MOST_BYTES + 1];
     return r->port.write(r->port.self, bytes, knurl_rawhid_put_counters(bytes, r->report_bytes, r->home));
 }
@@ -65,7 +65,7 @@ static int locate(rawhid *r, const knurl_rawhid_in *in, knurl_device_sample *sam
         r->knows_angles = 0;
         r->hold = HOLD_CYCLES;
         r->strange = r->is_lost = 0;
-        (void)rawhid_send_home(r);
+        (void)knurl_rawhid_send_home(r);
         return KNURL_LINK_NO_POSITION;
     }
     knurl_rawhid_angles(&r->arm, in->counts, r->angles);
@@ -85,17 +85,17 @@ static int locate(rawhid *r, const knurl_rawhid_in *in, knurl_device_sample *sam
 
 /* The firmware answers each report with one. The motor currents are computed for the arm's pose in the last exchange, a
  * millisecond ago. */
-int rawhid_exchange(knurl_device *device, const double force[3], knurl_device_sample *sample) {
+int knurl_rawhid_exchange(knurl_device *device, const double force[3], knurl_device_sample *sample) {
     rawhid *r = (rawhid *)(void *)device; /* first member */
     knurl_rawhid_in in;
-    if (!rawhid_drain(r)) {
+    if (!knurl_rawhid_drain(r)) {
         return KNURL_LINK_LOST;
     }
-    if (!rawhid_send_currents(r, force)) {
+    if (!knurl_rawhid_send_currents(r, force)) {
         knurl_rawhid_in ignored; /* only a read distinguishes a device that is gone from one that is busy */
         return take_report(r, 0, &ignored) == RAWHID_GONE ? KNURL_LINK_LOST : KNURL_LINK_NOTHING;
     }
-    const int outcome = rawhid_await(r, ANSWER_NS, &in);
+    const int outcome = knurl_rawhid_await(r, ANSWER_NS, &in);
     return outcome == RAWHID_GONE     ? KNURL_LINK_LOST
            : outcome == RAWHID_REPORT ? locate(r, &in, sample)
                                       : KNURL_LINK_NOTHING;

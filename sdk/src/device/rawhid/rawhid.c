@@ -22,9 +22,9 @@ static knurl_result greet(rawhid *r, knurl_rawhid_in *in) {
     static const double none[3] = {0.0, 0.0, 0.0};
     int outcome = RAWHID_NOTHING;
     for (int i = 0; i < GREET_TRIES && outcome == RAWHID_NOTHING; i++) {
-        outcome = rawhid_drain(r) ? RAWHID_NOTHING : RAWHID_GONE;
-        (void)(outcome == RAWHID_NOTHING && rawhid_send_currents(r, none));
-        outcome = outcome == RAWHID_NOTHING ? rawhid_await(r, 20000000, in) : outcome;
+        outcome = knurl_rawhid_drain(r) ? RAWHID_NOTHING : RAWHID_GONE;
+        (void)(outcome == RAWHID_NOTHING && knurl_rawhid_send_currents(r, none));
+        outcome = outcome == RAWHID_NOTHING ? knurl_rawhid_await(r, 20000000, in) : outcome;
     }
     if (outcome == RAWHID_REPORT) {
         return KNURL_OK;
@@ -50,8 +50,8 @@ static int is_home(const rawhid *r, const knurl_rawhid_in *in) {
 static knurl_result home(rawhid *r, knurl_rawhid_in *in) {
     knurl_result result = KNURL_OK;
     for (int i = 0; i < GREET_TRIES && !result; i++) {
-        (void)rawhid_send_home(r);
-        result = rawhid_await(r, 20000000, in) == RAWHID_GONE ? KNURL_ERROR_DEVICE_LOST : greet(r, in);
+        (void)knurl_rawhid_send_home(r);
+        result = knurl_rawhid_await(r, 20000000, in) == RAWHID_GONE ? KNURL_ERROR_DEVICE_LOST : greet(r, in);
         if (!result && is_home(r, in)) {
             return KNURL_OK;
         }
@@ -132,7 +132,7 @@ static knurl_result connect(rawhid *r, int is_again) {
         result = home(r, &in);
     }
     result = result ? result : start_guard(r, &found);
-    result = result ? result : knurl_link_open(&r->link, &r->base, rawhid_exchange, 1000.0);
+    result = result ? result : knurl_link_open(&r->link, &r->base, knurl_rawhid_exchange, 1000.0);
     if (result) {
         disconnect(r);
     }

@@ -33,16 +33,16 @@ typedef struct rawhid {
 enum { RAWHID_GONE = -1, RAWHID_NOTHING = 0, RAWHID_REPORT = 1, RAWHID_BAD = 2 };
 
 /* Discards reports that came too late to answer the next one sent. Returns 0 if the device is gone. */
-int rawhid_drain(rawhid *r);
+int knurl_rawhid_drain(rawhid *r);
 
 /* Waits up to `ns` for a valid report. Returns RAWHID_, but not RAWHID_BAD. */
-int rawhid_await(rawhid *r, int64_t ns, knurl_rawhid_in *in);
+int knurl_rawhid_await(rawhid *r, int64_t ns, knurl_rawhid_in *in);
 
 /* Returns 0 if nothing was sent. */
-int rawhid_send_currents(rawhid *r, const double force[3]);
-int rawhid_send_home(rawhid *r);
+int knurl_rawhid_send_currents(rawhid *r, const double force[3]);
+int knurl_rawhid_send_home(rawhid *r);
 
 /* For knurl_link_open(). */
-int rawhid_exchange(knurl_device *device, const double force[3], knurl_device_sample *sample);
+int knurl_rawhid_exchange(knurl_device *device, const double force[3], knurl_device_sample *sample);
 
 #endif

@@ -121,16 +121,16 @@ typedef struct hd_api {
     X(0x0600, "HD found no valid licence; install the OpenHaptics edition that goes with the device's driver")
 
 /* The sentence of an error; static, never null, also for unknown codes. */
-const char *hd_error_sentence(uint32_t code);
+const char *knurl_hd_error_sentence(uint32_t code);
 
 /* 1 if after this error the device is gone until it is initialised again. */
-int hd_error_is_loss(uint32_t code);
+int knurl_hd_error_is_loss(uint32_t code);
 
 /* 1 if after this error the device does not play the force it was sent. */
-int hd_error_is_refusal(uint32_t code);
+int knurl_hd_error_is_refusal(uint32_t code);
 
 /* Removes the errors that HD has queued, newest first. Returns their number. */
 #define HD_ERRORS_AT_ONCE 16
-int hd_take_errors(const hd_api *hd, hd_error errors[HD_ERRORS_AT_ONCE]);
+int knurl_hd_take_errors(const hd_api *hd, hd_error errors[HD_ERRORS_AT_ONCE]);
 
 #endif

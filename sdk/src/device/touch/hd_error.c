@@ -12,7 +12,7 @@ static const struct {
 #undef HD_ERROR_ROW
 };
 
-const char *hd_error_sentence(uint32_t code) {
+const char *knurl_hd_error_sentence(uint32_t code) {
     for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
         if (table[i].code == code) {
             return table[i].sentence;
@@ -22,15 +22,15 @@ const char *hd_error_sentence(uint32_t code) {
                 : "HD gives no reason; its set-up program (Touch Setup; Linux: Touch_AdvancedConfig) may show more";
 }
 
-int hd_error_is_loss(uint32_t code) {
+int knurl_hd_error_is_loss(uint32_t code) {
     return code == 0x0104 || (code >= 0x0300 && code <= 0x0303);
 }
 
-int hd_error_is_refusal(uint32_t code) {
+int knurl_hd_error_is_refusal(uint32_t code) {
     return code >= 0x0200 && code <= 0x0204;
 }
 
-int hd_take_errors(const hd_api *hd, hd_error errors[HD_ERRORS_AT_ONCE]) {
+int knurl_hd_take_errors(const hd_api *hd, hd_error errors[HD_ERRORS_AT_ONCE]) {
     int count = 0;
     while (count < HD_ERRORS_AT_ONCE) {
         errors[count] = hd->next_error();

@@ -106,7 +106,7 @@ static int try_path(const char *path, attempts *tried) {
     return 1;
 }
 
-knurl_result hd_acquire(const char *path, const char *device, const hd_api **hd) {
+knurl_result knurl_hd_acquire(const char *path, const char *device, const hd_api **hd) {
     if (loaded.users == 0) {
         attempts tried = {""};
         const char *named = path[0] ? path : knurl_system_environment("KNURL_HD_LIBRARY");
@@ -136,7 +136,7 @@ knurl_result hd_acquire(const char *path, const char *device, const hd_api **hd)
     return KNURL_OK;
 }
 
-void hd_release(void) {
+void knurl_hd_release(void) {
     if (--loaded.users == 0) {
         knurl_system_unload_library(loaded.library);
     }

@@ -42,7 +42,7 @@ static touch *of(knurl_device *device) {
 }
 
 static void take_slot(touch *t) {
-    t->slot = touch_find_slot(HD_NO_DEVICE);
+    t->slot = knurl_touch_find_slot(HD_NO_DEVICE);
     t->slot->owner = t;
     knurl_store_release(&t->slot->loss, 0u);
     knurl_store_release(&t->slot->refusal, 0u);
@@ -53,29 +53,29 @@ static void take_slot(touch *t) {
 static knurl_result open_locked(const char *name, const char *library, knurl_device **device) {
     int is_first = 1;
     for (int i = 0; i < TOUCH_ROOM; i++) {
-        is_first &= !touch_slots[i].owner;
+        is_first &= !knurl_touch_slots[i].owner;
     }
     const hd_api *hd = NULL;
-    if (!touch_find_slot(HD_NO_DEVICE)) {
+    if (!knurl_touch_find_slot(HD_NO_DEVICE)) {
         return knurl_fail(KNURL_ERROR_SYSTEM, "device 'touch': expected at most %d open devices", TOUCH_ROOM);
     }
     char uri[KNURL_URI_ROOM + 8];
     (void)snprintf(uri, sizeof uri, "touch%s%s", name[0] ? ":" : "", name);
-    knurl_result result = hd_acquire(library, uri, &hd);
+    knurl_result result = knurl_hd_acquire(library, uri, &hd);
     if (result) {
         return result;
     }
     touch *made = knurl_device_allocate(&knurl_touch_driver, sizeof *made);
     if (!made) {
-        hd_release();
+        knurl_hd_release();
         return KNURL_ERROR_MEMORY;
     }
     made->hd = hd;
     memcpy(made->uri, uri, sizeof uri);
     (void)snprintf(made->name, sizeof made->name, "%s", name);
-    result = touch_connect(made);
+    result = knurl_touch_connect(made);
     if (result) {
-        hd_release();
+        knurl_hd_release();
         knurl_device_free(&made->base);
         return result;
     }
@@ -115,12 +115,12 @@ static void touch_close(knurl_device *device) {
         knurl_handle_clear(&device->handle); /* leaked, as below */
         return;
     }
-    if (touch_detach(t)) {
-        touch_unschedule(t);
-        touch_disconnect(t);
+    if (knurl_touch_detach(t)) {
+        knurl_touch_unschedule(t);
+        knurl_touch_disconnect(t);
         t->slot->owner = NULL;
         knurl_device_free(device);
-        hd_release();
+        knurl_hd_release();
     } else { /* HD hangs in a call for this device and may still use its memory, which is leaked */
         knurl_handle_clear(&device->handle);
     }
@@ -144,16 +144,16 @@ static knurl_result start_locked(touch *t, double rate) {
                           t->uri, rate);
     }
     for (int i = 0; i < TOUCH_ROOM; i++) {
-        if (&touch_slots[i] != t->slot && knurl_load_acquire(&touch_slots[i].device) && whole != rate_now) {
+        if (&knurl_touch_slots[i] != t->slot && knurl_load_acquire(&knurl_touch_slots[i].device) && whole != rate_now) {
             return knurl_fail(KNURL_ERROR_UNSUPPORTED,
                               "device '%s': expected %lu Hz, found %lu Hz; HD has one scheduler for all "
                               "devices, and another runs at that rate",
                               t->uri, rate_now, whole);
         }
     }
-    (void)touch_take_errors(t->hd, t->slot);
+    (void)knurl_touch_take_errors(t->hd, t->slot);
     t->hd->set_rate(whole);
-    const uint32_t code = touch_take_errors(t->hd, t->slot);
+    const uint32_t code = knurl_touch_take_errors(t->hd, t->slot);
     if (code == 0x0102 && whole == rate_now) {
         return KNURL_OK; /* OpenHaptics 3.0 cannot change its rate, which is already right */
     }
@@ -167,7 +167,7 @@ static knurl_result start_locked(touch *t, double rate) {
         return knurl_fail(KNURL_ERROR_UNSUPPORTED,
                           "device '%s': HD's scheduler refuses %lu Hz (0x%04x: %s); 500, 1000 and mostly 2000 Hz "
                           "are known to work",
-                          t->uri, whole, (unsigned)code, hd_error_sentence(code));
+                          t->uri, whole, (unsigned)code, knurl_hd_error_sentence(code));
     }
     rate_now = whole;
     return KNURL_OK;
@@ -188,13 +188,13 @@ static knurl_result touch_serve(knurl_device *device, uint32_t (*tick)(void *arg
     if (result) {
         return result;
     }
-    if (!touch_detach(t)) { /* the last loop's last call */
+    if (!knurl_touch_detach(t)) { /* the last loop's last call */
         result = knurl_fail(KNURL_ERROR_STATE, "device '%s': HD's scheduler is still busy with the last loop", t->uri);
     } else {
-        touch_unschedule(t);
+        knurl_touch_unschedule(t);
         t->tick = tick;
         t->argument = argument;
-        result = touch_schedule(t);
+        result = knurl_touch_schedule(t);
     }
     unlock();
     return result;
@@ -206,16 +206,16 @@ static knurl_result touch_reopen(knurl_device *device) {
         return KNURL_ERROR_DEVICE_LOST;
     }
     knurl_result result = KNURL_ERROR_DEVICE_LOST;
-    if (touch_detach(t)) {
-        touch_unschedule(t);
-        touch_disconnect(t);
-        result = touch_connect(t);
+    if (knurl_touch_detach(t)) {
+        knurl_touch_unschedule(t);
+        knurl_touch_disconnect(t);
+        result = knurl_touch_connect(t);
         if (!result) {
             t->uncalibrated = 0; /* the servo thread is detached */
             knurl_store_release(&t->slot->key, t->handle + 1u);
             knurl_store_release(&t->slot->refusal, 0u);
             knurl_store_release(&t->slot->loss, 0u);
-            result = t->tick ? touch_schedule(t) : KNURL_OK;
+            result = t->tick ? knurl_touch_schedule(t) : KNURL_OK;
         }
     }
     unlock();
@@ -224,8 +224,8 @@ static knurl_result touch_reopen(knurl_device *device) {
 
 static uint32_t touch_leave(knurl_device *device) {
     touch *t = of(device); /* no call of HD here, because HD may hang */
-    return !knurl_load_acquire(&touch_is_paused) && !__atomic_load_n(&t->slot->inside, __ATOMIC_SEQ_CST) &&
-           touch_detach(t);
+    return !knurl_load_acquire(&knurl_touch_is_paused) && !__atomic_load_n(&t->slot->inside, __ATOMIC_SEQ_CST) &&
+           knurl_touch_detach(t);
 }
 
 /* Looks for the default device. Only called if this process has no device open. */
@@ -233,17 +233,17 @@ static void list_default(knurl_listings *listings) {
     touch t;
     memset(&t, 0, sizeof t);
     (void)snprintf(t.uri, sizeof t.uri, "touch");
-    if (hd_acquire("", t.uri, &t.hd)) {
+    if (knurl_hd_acquire("", t.uri, &t.hd)) {
         knurl_listings_add(listings, "touch", "3D Systems Touch", "%s", knurl_error_message());
         return;
     }
-    if (touch_connect(&t)) {
+    if (knurl_touch_connect(&t)) {
         knurl_listings_add(listings, "touch", "3D Systems Touch", "%s", knurl_error_message());
     } else {
-        touch_disconnect(&t);
+        knurl_touch_disconnect(&t);
         knurl_listings_add(listings, "touch", t.title, "%s", "");
     }
-    hd_release();
+    knurl_hd_release();
 }
 
 static void touch_list(knurl_listings *listings) {
@@ -253,7 +253,7 @@ static void touch_list(knurl_listings *listings) {
         return;
     }
     for (int i = 0; i < TOUCH_ROOM; i++) {
-        const touch *t = touch_slots[i].owner;
+        const touch *t = knurl_touch_slots[i].owner;
         if (t) {
             knurl_listings_add(listings, t->uri, t->title, "in use: this program has it open already");
             open++;
@@ -274,8 +274,8 @@ const knurl_driver knurl_touch_driver = {
     .get_info = touch_info,
     .get_status = touch_status,
     .start = touch_start,
-    .read = touch_read,
-    .write = touch_write,
+    .read = knurl_touch_read,
+    .write = knurl_touch_write,
     .reopen = touch_reopen,
     .serve = touch_serve,
     .leave = touch_leave,

@@ -22,9 +22,9 @@ static const char udev_help[] =
 #define PAUSE_NS 20000000
 
 static uint32_t users; /* devices that use the scheduler */
-uint32_t touch_is_paused;
+uint32_t knurl_touch_is_paused;
 
-int touch_detach(touch *t) {
+int knurl_touch_detach(touch *t) {
     const int64_t until = knurl_system_now_ns() + PATIENCE_NS;
     __atomic_store_n(&t->slot->device, NULL, __ATOMIC_SEQ_CST);
     while (__atomic_load_n(&t->slot->inside, __ATOMIC_SEQ_CST)) {
@@ -36,7 +36,7 @@ int touch_detach(touch *t) {
     return 1;
 }
 
-void touch_unschedule(touch *t) {
+void knurl_touch_unschedule(touch *t) {
     if (knurl_load_acquire(&t->slot->scheduled)) {
         t->hd->unschedule(t->task);
         knurl_store_release(&t->slot->scheduled, 0u);
@@ -50,7 +50,7 @@ static void leave_scheduler(touch *t) {
     t->uses_scheduler = 0;
 }
 
-knurl_result touch_schedule(touch *t) {
+knurl_result knurl_touch_schedule(touch *t) {
     t->until_check = 0;
     t->pause = 0;
     t->told_loss = 0;
@@ -62,21 +62,21 @@ knurl_result touch_schedule(touch *t) {
         }
     }
     knurl_store_release(&t->slot->scheduled, 1u);
-    t->task = t->hd->schedule(touch_servo, t->slot, HD_PRIORITY_MOST);
-    const uint32_t code = touch_take_errors(t->hd, t->slot);
+    t->task = t->hd->schedule(knurl_touch_servo, t->slot, HD_PRIORITY_MOST);
+    const uint32_t code = knurl_touch_take_errors(t->hd, t->slot);
     if (code >= 0x0500 || code == 0x0304) {
-        (void)touch_detach(t);
-        touch_unschedule(t);
+        (void)knurl_touch_detach(t);
+        knurl_touch_unschedule(t);
         leave_scheduler(t);
         return knurl_fail(KNURL_ERROR_SYSTEM, "device '%s': HD's scheduler does not start: 0x%04x: %s", t->uri,
-                          (unsigned)code, hd_error_sentence(code));
+                          (unsigned)code, knurl_hd_error_sentence(code));
     }
     return KNURL_OK;
 }
 
-touch_slot *touch_find_slot(hd_device handle) {
+touch_slot *knurl_touch_find_slot(hd_device handle) {
     for (int i = 0; i < TOUCH_ROOM; i++) {
-        touch_slot *slot = &touch_slots[i];
+        touch_slot *slot = &knurl_touch_slots[i];
         if (handle == HD_NO_DEVICE ? !slot->owner : slot->owner && slot->owner->handle == handle) {
             return slot;
         }
@@ -91,12 +91,12 @@ static hd_device initialise(const hd_api *hd, const char *name, uint32_t *code) 
     hd_device handle = HD_NO_DEVICE;
     *code = 0;
     for (size_t i = 0; i < count && handle == HD_NO_DEVICE; i++) {
-        (void)touch_take_errors(hd, NULL);
+        (void)knurl_touch_take_errors(hd, NULL);
         handle = hd->init(name[0] ? name : defaults[i]);
-        const uint32_t error = touch_take_errors(hd, NULL);
+        const uint32_t error = knurl_touch_take_errors(hd, NULL);
         *code = *code ? *code : error; /* of the first name */
         handle = handle <= HD_DEVICE_MOST ? handle : HD_NO_DEVICE;
-        if (handle != HD_NO_DEVICE && touch_find_slot(handle)) {
+        if (handle != HD_NO_DEVICE && knurl_touch_find_slot(handle)) {
             *code = 0x0301;
             return HD_NO_DEVICE; /* another of this process: do not disable it */
         }
@@ -135,14 +135,14 @@ static hd_enum choose_style(const hd_api *hd) {
 static uint32_t HD_CALL prepare(void *user) {
     touch *t = user;
     t->hd->make_current(t->handle);
-    (void)touch_take_errors(t->hd, NULL);
+    (void)knurl_touch_take_errors(t->hd, NULL);
     t->hd->enable(HD_FORCE_OUTPUT);
-    t->trouble = touch_take_errors(t->hd, NULL);
+    t->trouble = knurl_touch_take_errors(t->hd, NULL);
     if (!t->title[0]) { /* once: other threads may read it later */
-        touch_ask_info(t);
+        knurl_touch_ask_info(t);
     }
     t->style = choose_style(t->hd);
-    (void)touch_take_errors(t->hd, NULL); /* from queries that this version of HD does not support */
+    (void)knurl_touch_take_errors(t->hd, NULL); /* from queries that this version of HD does not support */
     return HD_DONE;
 }
 
@@ -150,7 +150,7 @@ static uint32_t HD_CALL switch_off(void *user) {
     touch *t = user;
     t->hd->make_current(t->handle);
     t->hd->disable(HD_FORCE_OUTPUT);
-    (void)touch_take_errors(t->hd, NULL); /* the device may be gone */
+    (void)knurl_touch_take_errors(t->hd, NULL); /* the device may be gone */
     return HD_DONE;
 }
 
@@ -162,7 +162,7 @@ static int pause_scheduler(touch *t) {
         return 0;
     }
     for (int i = 0; i < TOUCH_ROOM; i++) {
-        touch *other = touch_slots[i].owner;
+        touch *other = knurl_touch_slots[i].owner;
         if (other && other != t) {
             knurl_device_halt(&other->base);
             while (!knurl_load_acquire(&other->base.quiet) && knurl_system_now_ns() < until) {
@@ -170,17 +170,17 @@ static int pause_scheduler(touch *t) {
             }
         }
     }
-    knurl_store_release(&touch_is_paused, 1u);
+    knurl_store_release(&knurl_touch_is_paused, 1u);
     t->hd->stop_scheduler();
     return 1;
 }
 
 static void resume_scheduler(const touch *t) {
     t->hd->start_scheduler();
-    knurl_store_release(&touch_is_paused, 0u);
+    knurl_store_release(&knurl_touch_is_paused, 0u);
 }
 
-knurl_result touch_connect(touch *t) {
+knurl_result knurl_touch_connect(touch *t) {
     uint32_t code = 0;
     const int was_running = pause_scheduler(t);
     t->handle = initialise(t->hd, t->name, &code);
@@ -200,16 +200,16 @@ knurl_result touch_connect(touch *t) {
     }
     const int unreachable = code == 0 || (code >= 0x0300 && code != 0x0301 && code < 0x0400);
     return knurl_fail(unreachable ? KNURL_ERROR_DEVICE_LOST : KNURL_ERROR_SYSTEM,
-                      "device '%s' cannot be opened: 0x%04x: %s%s", t->uri, (unsigned)code, hd_error_sentence(code),
-                      unreachable ? udev_help : "");
+                      "device '%s' cannot be opened: 0x%04x: %s%s", t->uri, (unsigned)code,
+                      knurl_hd_error_sentence(code), unreachable ? udev_help : "");
 }
 
-void touch_disconnect(touch *t) {
+void knurl_touch_disconnect(touch *t) {
     leave_scheduler(t);
     if (t->handle != HD_NO_DEVICE) {
         in_turn(t, switch_off);
         t->hd->disable_device(t->handle);
-        (void)touch_take_errors(t->hd, NULL);
+        (void)knurl_touch_take_errors(t->hd, NULL);
         t->handle = HD_NO_DEVICE;
     }
     if (t->slot) {

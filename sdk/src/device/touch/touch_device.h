@@ -54,37 +54,37 @@ struct touch {
 #define TOUCH_PAUSE_FRAMES 100u
 
 /* touch_servo.c: the servo thread. */
-uint32_t HD_CALL touch_servo(void *slot);
-knurl_result touch_read(knurl_device *device, knurl_device_sample *sample);
-knurl_result touch_write(knurl_device *device, const double force[3]);
+uint32_t HD_CALL knurl_touch_servo(void *slot);
+knurl_result knurl_touch_read(knurl_device *device, knurl_device_sample *sample);
+knurl_result knurl_touch_write(knurl_device *device, const double force[3]);
 
 /* Takes HD's errors and stores each with its device; errors without a device count as `own`'s (not stored if null).
  * Returns the oldest of `own`, or 0. [any thread] */
-uint32_t touch_take_errors(const hd_api *hd, touch_slot *own);
+uint32_t knurl_touch_take_errors(const hd_api *hd, touch_slot *own);
 
 /* 1 while the scheduler is stopped to open another device. Atomic. */
-extern uint32_t touch_is_paused;
+extern uint32_t knurl_touch_is_paused;
 
 /* touch_info.c: queries HD for info and title; the device must be current, and not in a frame. */
-void touch_ask_info(touch *t);
+void knurl_touch_ask_info(touch *t);
 
-/* touch_connect.c; all except touch_detach() need the lock of touch.c. Opens the device and prepares it for forces;
- * gives it back to HD. Errors as knurl_device_open(). */
-knurl_result touch_connect(touch *t);
-void touch_disconnect(touch *t);
+/* touch_connect.c; all except knurl_touch_detach() need the lock of touch.c. Opens the device and prepares it for
+ * forces; gives it back to HD. Errors as knurl_device_open(). */
+knurl_result knurl_touch_connect(touch *t);
+void knurl_touch_disconnect(touch *t);
 
 /* Puts the tick on HD's list, or removes it. Errors: KNURL_ERROR_SYSTEM. */
-knurl_result touch_schedule(touch *t);
-void touch_unschedule(touch *t);
+knurl_result knurl_touch_schedule(touch *t);
+void knurl_touch_unschedule(touch *t);
 
 /* Makes further scheduler calls do nothing. Returns 0 if one is still in progress. [not the servo thread] */
-int touch_detach(touch *t);
+int knurl_touch_detach(touch *t);
 
 /* The slot of the device with this handle, or a free one (HD_NO_DEVICE); null if there is no such slot. */
-touch_slot *touch_find_slot(hd_device handle);
+touch_slot *knurl_touch_find_slot(hd_device handle);
 
 /* More devices than fit on a desk. */
 #define TOUCH_ROOM 8
-extern touch_slot touch_slots[TOUCH_ROOM];
+extern touch_slot knurl_touch_slots[TOUCH_ROOM];
 
 #endif

@@ -32,7 +32,7 @@ static const char *ask_string(touch *t, hd_enum what, const char *otherwise) {
     return answer && answer[0] ? answer : otherwise;
 }
 
-void touch_ask_info(touch *t) {
+void knurl_touch_ask_info(touch *t) {
     knurl_device_info *info = &t->info;
     knurl_device_info_init(info, sizeof *info);
     const char *model = ask_string(t, HD_MODEL, "unknown model");

@@ -9,7 +9,7 @@
 
 #include <string.h>
 
-touch_slot touch_slots[TOUCH_ROOM];
+touch_slot knurl_touch_slots[TOUCH_ROOM];
 
 static touch *of(knurl_device *device) {
     return (touch *)(void *)device; /* first member */
@@ -18,24 +18,24 @@ static touch *of(knurl_device *device) {
 static touch_slot *slot_of(hd_device handle) {
     const uint32_t key = handle + 1u; /* 0 if HD_NO_DEVICE */
     for (int i = 0; i < TOUCH_ROOM && key; i++) {
-        if (knurl_load_acquire(&touch_slots[i].key) == key) {
-            return &touch_slots[i];
+        if (knurl_load_acquire(&knurl_touch_slots[i].key) == key) {
+            return &knurl_touch_slots[i];
         }
     }
     return NULL;
 }
 
-uint32_t touch_take_errors(const hd_api *hd, touch_slot *own) {
+uint32_t knurl_touch_take_errors(const hd_api *hd, touch_slot *own) {
     hd_error errors[HD_ERRORS_AT_ONCE];
     uint32_t oldest = 0;
-    for (int i = 0, count = hd_take_errors(hd, errors); i < count; i++) {
+    for (int i = 0, count = knurl_hd_take_errors(hd, errors); i < count; i++) {
         const uint32_t code = errors[i].code;
         touch_slot *about = slot_of(errors[i].device);
         about = about ? about : own;
         oldest = about == own ? code : oldest;
-        if (about && hd_error_is_loss(code)) {
+        if (about && knurl_hd_error_is_loss(code)) {
             knurl_store_release(&about->loss, code);
-        } else if (about && hd_error_is_refusal(code)) {
+        } else if (about && knurl_hd_error_is_refusal(code)) {
             knurl_store_release(&about->refusal, code);
         } else if (about) {
             (void)__atomic_fetch_add(&about->others, 1, __ATOMIC_RELAXED);
@@ -136,10 +136,10 @@ static int serve_frame(touch *t) {
     keep_calibration(t);
     hd->begin_frame(t->handle);
     read_frame(t);
-    (void)touch_take_errors(hd, t->slot);
+    (void)knurl_touch_take_errors(hd, t->slot);
     int more = call_tick(t);
     play(t, more);
-    (void)touch_take_errors(hd, t->slot);
+    (void)knurl_touch_take_errors(hd, t->slot);
     look_for_refusal(t);
     if (!knurl_load_acquire(&t->slot->loss)) {
         return more;
@@ -151,9 +151,10 @@ static int serve_frame(touch *t) {
     return 0;
 }
 
-uint32_t HD_CALL touch_servo(void *user) {
+uint32_t HD_CALL knurl_touch_servo(void *user) {
     touch_slot *slot = user;
-    /* touch_detach() clears `device` before it reads `inside`, so at least one of the two sees the other's store. */
+    /* knurl_touch_detach() clears `device` before it reads `inside`, so at least one of the two sees the other's store.
+     */
     __atomic_store_n(&slot->inside, 1, __ATOMIC_SEQ_CST);
     touch *t = __atomic_load_n(&slot->device, __ATOMIC_SEQ_CST);
     const int again = t && serve_frame(t);
@@ -169,7 +170,7 @@ static int in_frame(const touch *t) {
     return knurl_load_acquire(&t->frame_thread) == knurl_system_thread_id();
 }
 
-knurl_result touch_read(knurl_device *device, knurl_device_sample *sample) {
+knurl_result knurl_touch_read(knurl_device *device, knurl_device_sample *sample) {
     touch *t = of(device);
     if (!in_frame(t)) {
         return KNURL_ERROR_STATE;
@@ -189,7 +190,7 @@ knurl_result touch_read(knurl_device *device, knurl_device_sample *sample) {
     return KNURL_OK;
 }
 
-knurl_result touch_write(knurl_device *device, const double force[3]) {
+knurl_result knurl_touch_write(knurl_device *device, const double force[3]) {
     touch *t = of(device);
     if (!in_frame(t)) {
         return KNURL_ERROR_STATE;
