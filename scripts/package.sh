@@ -20,6 +20,27 @@ godot_demo() {
     echo "run: what was felt is drawn in build/godot-demo/shot.png"
 }
 
+# The compiler for macOS and for Linux on arm64; says so if it cannot be downloaded.
+prepare_zig() {
+    need_packages "${BUILD_PACKAGES[@]}" python3-venv
+    mkdir -p build
+    if ! with_progress 'preparing for macOS and arm64' build/zig.log cmake/zig.sh build/zig; then
+        tail -n 3 build/zig.log >&2
+        return 1
+    fi
+}
+
+# Builds an engine's library for macOS, as one file for both processors, and for Linux on arm64.
+# usage: build_elsewhere TARGET FILE_BELOW_A_PRESET     Leaves build/macos/FILE.
+build_elsewhere() {
+    local preset
+    for preset in macos-arm64 macos-x86_64 linux-arm64; do
+        build $preset "$1"
+    done
+    mkdir -p "build/macos/$(dirname "$2")"
+    cmake/universal.py "build/macos/$2" "build/macos-arm64/$2" "build/macos-x86_64/$2"
+}
+
 package_godot() {
     case ${1:-} in
     '' | linux) ;;
@@ -34,7 +55,13 @@ package_godot() {
         build mingw knurl_godot
         libraries+=(build/mingw/godot/libknurl_godot.windows.x86_64.dll)
     else
-        echo "run: SKIPPED: the Windows library (see above): the package is for Linux alone" >&2
+        echo "run: SKIPPED: the Windows library, see above: the package is without it" >&2
+    fi
+    if [ "${1:-}" != linux ] && prepare_zig; then
+        build_elsewhere knurl_godot godot/libknurl_godot.macos.dylib
+        libraries+=(build/macos/godot/libknurl_godot.macos.dylib build/linux-arm64/godot/libknurl_godot.linux.arm64.so)
+    elif [ "${1:-}" != linux ]; then
+        echo "run: SKIPPED: the libraries for macOS and arm64, see above: the package is without them" >&2
     fi
     version=$(sed -n 's/^#define KNURL_VERSION_[A-Z]* \([0-9]*\)$/\1/p' sdk/include/knurl/base.h | paste -sd .)
     local package=$PWD/build/knurl-godot-$version.zip
@@ -74,7 +101,13 @@ package_unity() {
         build mingw knurl_unity
         libraries+=(build/mingw/unity/knurl_unity.dll)
     else
-        echo "run: SKIPPED: the Windows library (see above): the package is for Linux alone" >&2
+        echo "run: SKIPPED: the Windows library, see above: the package is without it" >&2
+    fi
+    if prepare_zig; then
+        build_elsewhere knurl_unity unity/libknurl_unity.dylib
+        libraries+=(build/macos/unity/libknurl_unity.dylib)
+    else
+        echo "run: SKIPPED: the macOS library, see above: the package is without it" >&2
     fi
     bindings/unity/package.sh "${any[@]}" "$PWD/build" "${libraries[@]}"
     if prepare_unity; then

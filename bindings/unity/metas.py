@@ -16,10 +16,11 @@ import sys
 PACKAGE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "package")
 NAME = "com.knurl.haptics"
 
-# The native libraries: where they lie, and the editor's word for their system.
+# The native libraries: their folders, and the editor's words for their system, player and processor.
 LIBRARIES = {
-    "Plugins/Linux/x86_64/libknurl_unity.so": ("Linux", "Linux64"),
-    "Plugins/Windows/x86_64/knurl_unity.dll": ("Windows", "Win64"),
+    "Plugins/Linux/x86_64/libknurl_unity.so": ("Linux", "Linux64", "x86_64"),
+    "Plugins/macOS/libknurl_unity.dylib": ("OSX", "OSXUniversal", "AnyCPU"),
+    "Plugins/Windows/x86_64/knurl_unity.dll": ("Windows", "Win64", "x86_64"),
 }
 PLAYERS = ("Linux64", "OSXUniversal", "Win", "Win64")
 
@@ -30,6 +31,7 @@ IMPORTERS = {
     ".asset": "NativeFormatImporter",
     ".so": "PluginImporter",
     ".dll": "PluginImporter",
+    ".dylib": "PluginImporter",
     ".unity": "DefaultImporter",
 }
 BODIES = {
@@ -77,8 +79,8 @@ def guid_of(path):
 
 
 def plugin_body(path):
-    """A native library's: its own system's editor and player, on x86_64, and nothing else."""
-    system, player = LIBRARIES[path]
+    """A native library's: the editor and player of its own system and processor, and nothing else."""
+    system, player, cpu = LIBRARIES[path]
     lines = [
         "  externalObjects: {}",
         "  serializedVersion: 2",
@@ -100,11 +102,11 @@ def plugin_body(path):
     lines += [f"        Exclude {name}: {int(name != player)}" for name in PLAYERS]
     lines += ["  - first:", "      Any: ", "    second:", "      enabled: 0", "      settings: {}"]
     lines += ["  - first:", "      Editor: Editor", "    second:", "      enabled: 1", "      settings:"]
-    lines += ["        CPU: x86_64", "        DefaultValueInitialized: true", f"        OS: {system}"]
+    lines += [f"        CPU: {cpu}", "        DefaultValueInitialized: true", f"        OS: {system}"]
     for name in PLAYERS:
         on = name == player
         lines += ["  - first:", f"      Standalone: {name}", "    second:", f"      enabled: {int(on)}"]
-        lines += ["      settings:", f"        CPU: {'x86_64' if on else 'None'}"]
+        lines += ["      settings:", f"        CPU: {cpu if on else 'None'}"]
     return "\n".join(lines) + "\n"
 
 
@@ -146,9 +148,9 @@ def check_meta(path, text, is_folder):
     if ("\nfolderAsset: yes\n" in text) != is_folder:
         wrong.append("wrong kind: expected 'folderAsset: yes' for folders, and only for folders")
     if path in LIBRARIES and plugin_body(path) not in text:
+        system, player, cpu = LIBRARIES[path]
         wrong.append(
-            f"wrong platforms: expected Any off, Editor ({LIBRARIES[path][0]}) and Standalone {LIBRARIES[path][1]} "
-            "on, CPU x86_64, and nothing else"
+            f"wrong platforms: expected Any off, Editor ({system}) and Standalone {player} on, CPU {cpu}, and nothing else"
         )
     return wrong, guid
 

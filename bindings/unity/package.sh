@@ -25,14 +25,14 @@ if ! grep -qx "  \"version\": \"$version\"," "$here/package/package.json"; then
     exit 1
 fi
 
-# place_library FILE FOLDER MAGIC STRIP: into the stage, without what is there to debug it.
+# place_library FILE FOLDER MAGIC [STRIP]: into the stage; STRIP takes debug information out of it.
 place_library() {
     if [ "$(head -c "${#3}" "$1")" != "$3" ]; then
         echo "package: $1: expected a library that starts with '${3#$'\x7f'}', found another kind of file" >&2
         exit 1
     fi
     install -m 644 "$1" "$stage/$name/Plugins/$2/"
-    ! command -v "$4" >/dev/null || "$4" --strip-unneeded "$stage/$name/Plugins/$2/$(basename "$1")"
+    [ $# -lt 4 ] || ! command -v "$4" >/dev/null || "$4" --strip-unneeded "$stage/$name/Plugins/$2/$(basename "$1")"
 }
 
 # check_glibc LIBRARY: by the versions of the symbols that it needs.
@@ -49,7 +49,7 @@ stage=$(mktemp -d "$out/.package.XXXXXX") # beside what it becomes, so that movi
 trap 'rm -rf "$stage"' EXIT
 mkdir "$stage/$name"
 # What git ignores, such as a library that somebody put there to try it, stays behind.
-tar -C "$here/package" --exclude='*.so' --exclude='*.dll' -cf - . | tar -C "$stage/$name" -xf -
+tar -C "$here/package" --exclude='*.so' --exclude='*.dll' --exclude='*.dylib' -cf - . | tar -C "$stage/$name" -xf -
 find "$stage/$name" -name '.*' -type f -delete
 for library in "$@"; do
     case $(basename "$library") in
@@ -58,13 +58,14 @@ for library in "$@"; do
         place_library "$library" Linux/x86_64 $'\x7fELF' strip
         ;;
     knurl_unity.dll) place_library "$library" Windows/x86_64 MZ x86_64-w64-mingw32-strip ;;
+    libknurl_unity.dylib) place_library "$library" macOS $'\xca\xfe\xba\xbe' ;; # stripped when it was linked
     *)
-        echo "package: $library: expected libknurl_unity.so or knurl_unity.dll" >&2
+        echo "package: $library: expected libknurl_unity.so, libknurl_unity.dylib or knurl_unity.dll" >&2
         exit 1
         ;;
     esac
 done
-for system in Linux Windows; do # no library, no meta for it
+for system in Linux macOS Windows; do # no library, no meta for it
     if [ -z "$(find "$stage/$name/Plugins/$system" -type f ! -name '*.meta')" ]; then
         rm -rf "$stage/$name/Plugins/$system" "$stage/$name/Plugins/$system.meta"
     fi

@@ -111,7 +111,7 @@ void os_forget_keys(void) {
 
 static int identify(int failed, const struct stat *status, os_file *found) {
     if (!failed) {
-        found->device = status->st_dev;
+        found->device = (uint64_t)status->st_dev;
         found->number = status->st_ino;
         found->is_regular = S_ISREG(status->st_mode);
     }
@@ -190,7 +190,7 @@ int os_make_folder(const char *path) {
 }
 
 int os_random(uint64_t *number) {
-    return getrandom(number, sizeof *number, 0) == (ssize_t)sizeof *number ? 0 : -1;
+    return getentropy(number, sizeof *number);
 }
 
 const char *os_base_name(const char *path) {

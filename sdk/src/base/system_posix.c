@@ -6,6 +6,10 @@
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
+#if defined(__APPLE__)
+#include <mach/mach.h>
+#include <mach/mach_time.h>
+#endif
 #include <pthread.h>
 #include <sched.h>
 #include <signal.h>
@@ -20,9 +24,6 @@
 #include <time.h>
 #include <unistd.h>
 
-/* Above the kernel's threaded interrupt handlers (50) and beside audio servers; well below the watchdogs (99). */
-#define REALTIME_PRIORITY 70
-
 #define LOCKED_STACK ((size_t)64 * 1024)
 
 struct knurl_thread {
@@ -32,9 +33,11 @@ struct knurl_thread {
     uintptr_t process; /* the process that started it */
 };
 
-/* CLOCK_BOOTTIME continues while the machine sleeps, so that a force from before is too old to be played. */
-#ifdef CLOCK_BOOTTIME
+/* These continue while the machine sleeps, so that a force from before is too old to be played. */
+#if defined(CLOCK_BOOTTIME)
 #define CLOCK CLOCK_BOOTTIME
+#elif defined(__APPLE__)
+#define CLOCK CLOCK_MONOTONIC_RAW /* its CLOCK_MONOTONIC has a resolution of 1 us */
 #else
 #define CLOCK CLOCK_MONOTONIC
 #endif
@@ -45,12 +48,55 @@ int64_t knurl_system_now_ns(void) {
     return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
 }
 
+#if defined(__APPLE__)
+
+/* Ticks of mach_absolute_time(), which stands still while the machine sleeps: only differences are taken from it. */
+static uint64_t mach_ticks(int64_t nanoseconds) {
+    mach_timebase_info_data_t base;
+    (void)mach_timebase_info(&base); /* cached by the system's library */
+    return (uint64_t)nanoseconds * base.denom / base.numer;
+}
+
+void knurl_system_sleep_until_ns(int64_t deadline_ns) {
+    const int64_t left = deadline_ns - knurl_system_now_ns();
+    if (left > 0) {
+        (void)mach_wait_until(mach_absolute_time() + mach_ticks(left));
+    }
+}
+
+/* A time-constraint thread, as audio threads are: no right is needed. A tick takes microseconds of its millisecond. */
+int knurl_system_make_realtime(void) {
+    thread_time_constraint_policy_data_t policy = {(uint32_t)mach_ticks(1000000), (uint32_t)mach_ticks(200000),
+                                                   (uint32_t)mach_ticks(500000), 1};
+    return thread_policy_set(pthread_mach_thread_np(pthread_self()), THREAD_TIME_CONSTRAINT_POLICY,
+                             (thread_policy_t)&policy, THREAD_TIME_CONSTRAINT_POLICY_COUNT) == KERN_SUCCESS;
+}
+
+#else
+
 void knurl_system_sleep_until_ns(int64_t deadline_ns) {
     struct timespec deadline;
     deadline.tv_sec = (time_t)(deadline_ns / 1000000000);
     deadline.tv_nsec = (long)(deadline_ns % 1000000000);
     while (clock_nanosleep(CLOCK, TIMER_ABSTIME, &deadline, NULL) == EINTR) {}
 }
+
+/* Above the kernel's threaded interrupt handlers (50) and beside audio servers; well below the watchdogs (99). */
+#define REALTIME_PRIORITY 70
+
+int knurl_system_make_realtime(void) {
+    struct sched_param parameters;
+    int policy = SCHED_OTHER;
+    memset(&parameters, 0, sizeof parameters);
+    if (pthread_getschedparam(pthread_self(), &policy, &parameters) == 0 &&
+        (policy == SCHED_FIFO || policy == SCHED_RR)) {
+        return 1; /* another library's thread: keep its priority */
+    }
+    parameters.sched_priority = REALTIME_PRIORITY;
+    return pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters) == 0;
+}
+
+#endif
 
 /* The caller provides the storage, so that all of a scene's memory comes from its allocator. */
 typedef char mutex_fits[sizeof(pthread_mutex_t) <= sizeof(knurl_mutex) ? 1 : -1];
@@ -139,18 +185,6 @@ uintptr_t knurl_system_process_id(void) {
 uintptr_t knurl_system_thread_id(void) {
     static KNURL_THREAD_LOCAL char mine; /* its address is unique to this thread */
     return (uintptr_t)&mine;
-}
-
-int knurl_system_make_realtime(void) {
-    struct sched_param parameters;
-    int policy = SCHED_OTHER;
-    memset(&parameters, 0, sizeof parameters);
-    if (pthread_getschedparam(pthread_self(), &policy, &parameters) == 0 &&
-        (policy == SCHED_FIFO || policy == SCHED_RR)) {
-        return 1; /* another library's thread: keep its priority */
-    }
-    parameters.sched_priority = REALTIME_PRIORITY;
-    return pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters) == 0;
 }
 
 int knurl_system_lock_memory(void *memory, size_t size) {

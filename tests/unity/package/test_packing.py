@@ -27,6 +27,7 @@ REQUIRED = [  # by Unity's manual, "Package layout"
 ]
 LINUX = "Plugins/Linux/x86_64/libknurl_unity.so"
 WINDOWS = "Plugins/Windows/x86_64/knurl_unity.dll"
+MACOS = "Plugins/macOS/libknurl_unity.dylib"
 
 
 def make_library(path, compiler, magic):
@@ -49,6 +50,9 @@ def make_libraries(case):
     case.windows = make_library(
         os.path.join(holder.name, "knurl_unity.dll"), "x86_64-w64-mingw32-gcc-posix", b"MZ"
     )
+    case.macos = os.path.join(holder.name, "libknurl_unity.dylib")
+    with open(case.macos, "wb") as file:
+        file.write(bytes.fromhex("cafebabe") + b"\0\0\0\2")
     return holder.name
 
 
@@ -69,7 +73,7 @@ class Packed(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         out = os.path.join(make_libraries(cls), "out")
-        cls.done = pack(out, cls.linux, cls.windows)
+        cls.done = pack(out, cls.linux, cls.windows, cls.macos)
         cls.stem, cls.tarball = paths_in(out)
 
     def setUp(self):
@@ -81,7 +85,7 @@ class Packed(unittest.TestCase):
         names = [member.name for member in members]
         self.assertEqual(names[0], "package")
         self.assertTrue(all(name.startswith("package/") for name in names[1:]))
-        for path in REQUIRED + [LINUX, WINDOWS]:
+        for path in REQUIRED + [LINUX, WINDOWS, MACOS]:
             self.assertIn("package/" + path, names)
         self.assertTrue(all(member.isfile() or member.isdir() for member in members))
         self.assertEqual({member.uid for member in members} | {member.gid for member in members}, {0})
@@ -159,7 +163,7 @@ class Packing(package.InFolder):
     def test_a_library_of_another_name_is_refused(self):
         other = os.path.join(self.folder, "libother.so")
         shutil.copy(self.linux, other)
-        self.expect_nothing_made(pack(self.out, other), "libother.so: expected libknurl_unity.so or knurl_unity.dll")
+        self.expect_nothing_made(pack(self.out, other), "libother.so: expected libknurl_unity.so, libknurl_unity.dylib or")
 
     def test_a_library_of_another_kind_is_refused(self):
         self.write("not a library", "knurl_unity.dll")

@@ -61,6 +61,8 @@ static int load_functions(const char *path, char *why, size_t why_size) {
     static const char *const usual[] = {"dhd64.dll"};
 #elif defined(_WIN32)
     static const char *const usual[] = {"dhd.dll"};
+#elif defined(__APPLE__)
+    static const char *const usual[] = {"libdhd.dylib", "libdrd.dylib"};
 #else
     static const char *const usual[] = {"libdhd.so", "libdhd.so.3", "libdrd.so", "libdrd.so.3"};
 #endif

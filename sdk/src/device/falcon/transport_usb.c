@@ -34,6 +34,8 @@ static usb_functions lib;
 static int load_functions(char *why, size_t why_size) {
 #if defined(_WIN32)
     static const char *const files[] = {"libusb-1.0.dll"};
+#elif defined(__APPLE__) /* Homebrew's folder on arm64 is not among those that are searched */
+    static const char *const files[] = {"libusb-1.0.0.dylib", "/opt/homebrew/lib/libusb-1.0.0.dylib"};
 #else
     static const char *const files[] = {"libusb-1.0.so.0", "libusb-1.0.so"};
 #endif
@@ -50,7 +52,11 @@ static int load_functions(char *why, size_t why_size) {
 
 static const char permission[] = "it may not be opened: is it in use by another program, or by this one?";
 #else
+#if defined(__APPLE__)
+#define NO_LIBRARY "libusb-1.0 cannot be loaded: %s; install it (Homebrew: libusb)"
+#else
 #define NO_LIBRARY "libusb-1.0 cannot be loaded: %s; install it (Debian: libusb-1.0-0)"
+#endif
 
 static const char permission[] =
     "it may not be used by this account; copy sdk/udev/70-knurl.rules to /etc/udev/rules.d, run 'udevadm control "

@@ -58,7 +58,7 @@ static void wait_for_events(usb *u, int64_t deadline) {
     struct timeval time = {0, 0};
     if (left > 0) {
         time.tv_sec = (long)(left / 1000000000);
-        time.tv_usec = (long)(left % 1000000000 / 1000);
+        time.tv_usec = (int)(left % 1000000000 / 1000);
     }
     (void)u->lib->handle_events_timeout_completed(u->context, &time, NULL);
 }

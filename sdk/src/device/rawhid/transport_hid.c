@@ -47,6 +47,8 @@ static struct {
 
 #if defined(_WIN32)
 #define INSTALL "put hidapi.dll into the program's folder"
+#elif defined(__APPLE__)
+#define INSTALL "install it (Homebrew: hidapi)"
 #else
 #define INSTALL "install it (Debian: libhidapi-hidraw0)"
 #endif
@@ -54,6 +56,8 @@ static struct {
 static int load_functions(char *why, size_t why_size) {
 #if defined(_WIN32)
     static const char *const files[] = {"hidapi.dll"};
+#elif defined(__APPLE__)
+    static const char *const files[] = {"libhidapi.0.dylib", "/opt/homebrew/lib/libhidapi.0.dylib"};
 #else
     static const char *const files[] = {"libhidapi-hidraw.so.0", "libhidapi-hidraw.so"};
 #endif

@@ -1,0 +1,24 @@
+# macOS (arm64, x86-64) and Linux (arm64) from Linux, with the compiler that cmake/zig.sh has put into build/zig.
+# KNURL_ZIG_TARGET: as Zig names it; presets set it.
+set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES KNURL_ZIG_TARGET)
+string(REGEX MATCH "^[^-]+" CMAKE_SYSTEM_PROCESSOR ${KNURL_ZIG_TARGET})
+if(KNURL_ZIG_TARGET MATCHES macos)
+  set(CMAKE_SYSTEM_NAME Darwin)
+  set(CMAKE_INSTALL_NAME_TOOL true) # not needed: what is built is not installed with another name
+else()
+  set(CMAKE_SYSTEM_NAME Linux)
+endif()
+file(REAL_PATH ${CMAKE_CURRENT_LIST_DIR}/../build/zig _zig)
+set(CMAKE_C_COMPILER ${_zig}/bin/${KNURL_ZIG_TARGET}-cc)
+set(CMAKE_CXX_COMPILER ${_zig}/bin/${KNURL_ZIG_TARGET}-c++)
+set(CMAKE_AR ${_zig}/bin/ar)
+set(CMAKE_RANLIB ${_zig}/bin/ranlib)
+foreach(kind EXE SHARED MODULE) # the C++ library comes with debug information, which names folders
+  set(CMAKE_${kind}_LINKER_FLAGS_INIT -s)
+endforeach()
+set(CMAKE_FIND_ROOT_PATH ${_zig}/prefix)
+set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
+set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
+set(ENV{PKG_CONFIG_LIBDIR} ${_zig}/prefix/lib/pkgconfig)
