@@ -173,6 +173,17 @@ same_numbers() {
     /usr/bin/python3 -B tests/fidelity/same_numbers.py "$PWD" "$PWD/build/same_numbers" cc
 }
 
+# What is cross-built for macOS and for Linux on arm64, looked at; a run under qemu.
+test_elsewhere() {
+    prepare_zig || return 1
+    (need_packages llvm qemu-user libc6-arm64-cross) || echo 'run: qemu cannot be had, see above: nothing runs under it' >&2
+    build_elsewhere knurl_godot godot/libknurl_godot.macos.dylib
+    build_elsewhere knurl_unity unity/libknurl_unity.dylib
+    build macos-arm64 knurl_tool
+    build linux-arm64 knurl_tool
+    tests/package/elsewhere.py build build/release/knurl assets/plate_1d.glb
+}
+
 # The tests that the others are short forms of: each for a minute, or some ten times as far. They run without ctest,
 # which would end them after two minutes.
 soak() {
@@ -190,6 +201,7 @@ soak() {
         fi
     done
     same_numbers || failed+=(same_numbers)
+    test_elsewhere || failed+=('macOS and arm64')
     test_systems '' "$CURRENT_SYSTEM" "$NEWEST_SYSTEM" || failed+=('the two commands in other systems') # and what warns there
     figures --check || failed+=("figures --check")
     [ ${#failed[@]} -eq 0 ] || { echo "run: soak: FAILED: ${failed[*]}" >&2; exit 1; }

@@ -55,7 +55,8 @@ class Faults(package.InFolder):
 
     def test_a_librarys_meta_may_stand_alone_in_the_source_tree_but_not_in_a_packed_one(self):
         self.expect(packed=False)
-        self.expect("libknurl_unity.so.meta: orphan", "knurl_unity.dll.meta: orphan", packed=True)
+        self.expect("libknurl_unity.so.meta: orphan", "knurl_unity.dll.meta: orphan", "libknurl_unity.dylib.meta: orphan",
+                    packed=True)
 
     def test_two_metas_with_one_guid_are_both_named(self):
         other = "Runtime/KnurlSurface.cs.meta"

@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+"""Looks at what was cross-built for macOS and for Linux on arm64: what it exports, what it needs, how it is signed; and
+compares a run of the arm64 tool under qemu with the same run of this machine's.
+
+usage: elsewhere.py BUILD KNURL PLATE     BUILD: with the folders macos-arm64, macos-x86_64 and linux-arm64
+SPDX-License-Identifier: MIT"""
+import json
+import os
+import shutil
+import subprocess
+import sys
+import unittest
+
+BUILD, KNURL, PLATE = sys.argv[1:4]
+GLIBC = (2, 31)  # the oldest that libraries for Linux run with
+ENTRIES = {"knurl_godot": "knurl_godot_init", "knurl_unity": "knurl_unity_interface"}
+TIMED = ("tick_ns", "jitter_us")
+
+
+def say(*command):
+    return subprocess.run(command, capture_output=True, text=True, check=True).stdout
+
+
+def below(preset, *path):
+    return os.path.join(BUILD, preset, *path)
+
+
+def libraries(preset):
+    ends = ".dylib" if "macos" in preset else ".so"
+    for folder in ("godot", "unity"):
+        for name in sorted(os.listdir(below(preset, folder))):
+            if name.endswith(ends):
+                yield below(preset, folder, name)
+
+
+def entry_of(path):
+    return next(entry for stem, entry in ENTRIES.items() if stem in os.path.basename(path))
+
+
+class MacOS(unittest.TestCase):
+    presets = ("macos-arm64", "macos-x86_64")
+
+    def test_each_library_exports_its_entry(self):
+        for path in (path for preset in self.presets for path in libraries(preset)):
+            self.assertIn(f" T _{entry_of(path)}\n", say("llvm-nm", "-gU", path), path)
+
+    def test_it_needs_the_systems_library_alone(self):
+        for path in (path for preset in self.presets for path in libraries(preset)):
+            needed = say("llvm-objdump", "--macho", "--dylibs-used", path).splitlines()[1:]
+            names = {line.split()[0] for line in needed} - {"@rpath/" + os.path.basename(path)}
+            self.assertEqual(names, {"/usr/lib/libSystem.B.dylib"}, path)
+
+    def test_it_runs_on_macos_11(self):
+        for path in (path for preset in self.presets for path in libraries(preset)):
+            self.assertIn("minos 11.0", say("llvm-objdump", "--macho", "--private-headers", path), path)
+
+    def test_what_is_for_arm64_is_signed(self):
+        for path in [*libraries("macos-arm64"), below("macos-arm64", "knurl")]:
+            self.assertIn("LC_CODE_SIGNATURE", say("llvm-objdump", "--macho", "--private-headers", path), path)
+
+
+class Arm64(unittest.TestCase):
+    def test_each_library_exports_its_entry(self):
+        for path in libraries("linux-arm64"):
+            self.assertIn(f" T {entry_of(path)}\n", say("llvm-nm", "-D", "--defined-only", path), path)
+
+    def test_it_runs_with_glibc_2_31(self):
+        for path in [*libraries("linux-arm64"), below("linux-arm64", "knurl")]:
+            symbols = say("llvm-nm", "-D", path).split()
+            versions = [symbol.rsplit("@GLIBC_", 1)[1] for symbol in symbols if "@GLIBC_" in symbol]
+            self.assertTrue(versions, path)
+            self.assertLessEqual(max(tuple(map(int, version.split("."))) for version in versions), GLIBC, path)
+
+    @unittest.skipUnless(shutil.which("qemu-aarch64"), "no qemu-aarch64")
+    def test_a_run_says_what_it_says_here(self):
+        stroke = ("run", PLATE, "--fast", "--seconds", "2")
+        there = json.loads(say("qemu-aarch64", "-L", "/usr/aarch64-linux-gnu", below("linux-arm64", "knurl"), *stroke))
+        here = json.loads(say(KNURL, *stroke))
+        for key in TIMED:
+            there.pop(key), here.pop(key)
+        self.assertEqual(there, here)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
