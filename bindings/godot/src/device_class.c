@@ -422,11 +422,11 @@ static const gd_property properties[] = {
 };
 
 static const gd_method_row methods[] = {
-    {"get_warnings", GDEXTENSION_VARIANT_TYPE_PACKED_STRING_ARRAY, NULL, get_warnings, 0, {{NULL}}},
-    {"start", INT, "Error", start, 0, {{NULL}}},
-    {"list_devices", GDEXTENSION_VARIANT_TYPE_ARRAY, NULL, status_list, 0, {{NULL}}},
-    {"get_touched_surface", OBJECT, "KnurlSurface", get_touched, 0, {{NULL}}},
-    {"stop", NOTHING, NULL, stop, 0, {{NULL}}},
+    {"get_warnings", GDEXTENSION_VARIANT_TYPE_PACKED_STRING_ARRAY, NULL, get_warnings, 0, {{0}}},
+    {"start", INT, "Error", start, 0, {{0}}},
+    {"list_devices", GDEXTENSION_VARIANT_TYPE_ARRAY, NULL, status_list, 0, {{0}}},
+    {"get_touched_surface", OBJECT, "KnurlSurface", get_touched, 0, {{0}}},
+    {"stop", NOTHING, NULL, stop, 0, {{0}}},
     {"move_hip", NOTHING, NULL, move_hip, 1, {{"global_position", VECTOR3, NULL}}},
     {"vibrate",
      NOTHING,
@@ -447,7 +447,7 @@ static const gd_method_row methods[] = {
      2,
      {{"from", VECTOR3, NULL}, {"to", VECTOR3, NULL}}},
     {"play_trace", DOUBLES, NULL, trace_play, 2, {{"rows", DOUBLES, NULL}, {"ticks", INT, NULL}}},
-    {"get_status", GDEXTENSION_VARIANT_TYPE_DICTIONARY, NULL, status_tell, 0, {{NULL}}},
+    {"get_status", GDEXTENSION_VARIANT_TYPE_DICTIONARY, NULL, status_tell, 0, {{0}}},
 };
 
 static const gd_signal_row signals[] = {

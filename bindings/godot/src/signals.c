@@ -232,7 +232,7 @@ void signals_end(void) {
 
 static const gd_method_row methods[] = {
     {"tell", GDEXTENSION_VARIANT_TYPE_NIL, NULL, tell, 1, {{"device", GDEXTENSION_VARIANT_TYPE_INT, NULL}}},
-    {"tell_in_pause", GDEXTENSION_VARIANT_TYPE_NIL, NULL, tell_in_pause, 0, {{NULL}}},
+    {"tell_in_pause", GDEXTENSION_VARIANT_TYPE_NIL, NULL, tell_in_pause, 0, {{0}}},
 };
 
 const gd_class teller_class = {

@@ -214,10 +214,10 @@ static const gd_property properties[] = {
 };
 
 static const gd_method_row methods[] = {
-    {"get_triangle_count", GDEXTENSION_VARIANT_TYPE_INT, NULL, get_triangle_count, 0, {{NULL}}},
-    {"get_warnings", GDEXTENSION_VARIANT_TYPE_PACKED_STRING_ARRAY, NULL, get_warnings, 0, {{NULL}}},
-    {"update_mesh", GDEXTENSION_VARIANT_TYPE_NIL, NULL, update_mesh, 0, {{NULL}}},
-    {"is_touched", GDEXTENSION_VARIANT_TYPE_BOOL, NULL, is_touched, 0, {{NULL}}},
+    {"get_triangle_count", GDEXTENSION_VARIANT_TYPE_INT, NULL, get_triangle_count, 0, {{0}}},
+    {"get_warnings", GDEXTENSION_VARIANT_TYPE_PACKED_STRING_ARRAY, NULL, get_warnings, 0, {{0}}},
+    {"update_mesh", GDEXTENSION_VARIANT_TYPE_NIL, NULL, update_mesh, 0, {{0}}},
+    {"is_touched", GDEXTENSION_VARIANT_TYPE_BOOL, NULL, is_touched, 0, {{0}}},
 };
 
 static const gd_signal_row signals[] = {
