@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "f57ca69f8ab05789"
+#define KNURL_UNITY_INTERFACE "70101b03ba6c8dec"
 
 /** Everything mirrored, where C# expects it: STRUCT(type, bytes), FIELD(type, field, its name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
@@ -24,7 +24,7 @@
     FIELD(knurl_plane_desc, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_plane_desc, reserved, "reserved", 4, 4) \
     FIELD(knurl_plane_desc, half_extents, "half_extents", 8, 16) \
-    STRUCT(knurl_mesh_desc, 48) \
+    STRUCT(knurl_mesh_desc, 56) \
     FIELD(knurl_mesh_desc, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_mesh_desc, vertex_count, "vertex_count", 4, 4) \
     FIELD(knurl_mesh_desc, positions, "positions", 8, 8) \
@@ -32,6 +32,7 @@
     FIELD(knurl_mesh_desc, uvs, "uvs", 24, 8) \
     FIELD(knurl_mesh_desc, indices, "indices", 32, 8) \
     FIELD(knurl_mesh_desc, index_count, "index_count", 40, 8) \
+    FIELD(knurl_mesh_desc, normals, "normals", 48, 8) \
     STRUCT(knurl_vibration_event, 32) \
     FIELD(knurl_vibration_event, positive, "positive", 0, 8) \
     FIELD(knurl_vibration_event, negative, "negative", 8, 8) \
@@ -303,7 +304,7 @@
     FIELD(knurl_loop_stats, absences, "absences", 104, 8) \
     FIELD(knurl_loop_stats, absent, "absent", 112, 4) \
     FIELD(knurl_loop_stats, paused, "paused", 116, 4) \
-    STRUCT(knurl_surface_info, 312) \
+    STRUCT(knurl_surface_info, 328) \
     FIELD(knurl_surface_info, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_surface_info, triangle_count, "triangle_count", 4, 4) \
     FIELD(knurl_surface_info, dropped_triangles, "dropped_triangles", 8, 4) \
@@ -327,6 +328,9 @@
     FIELD(knurl_surface_info, stretch_y, "stretch_y", 272, 24) \
     FIELD(knurl_surface_info, seam, "seam", 296, 8) \
     FIELD(knurl_surface_info, touching_pairs, "touching_pairs", 304, 8) \
+    FIELD(knurl_surface_info, curved_triangles, "curved_triangles", 312, 4) \
+    FIELD(knurl_surface_info, bad_normals, "bad_normals", 316, 4) \
+    FIELD(knurl_surface_info, bulge, "bulge", 320, 8) \
     STRUCT(knurl_surface_point, 72) \
     FIELD(knurl_surface_point, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_surface_point, reserved, "reserved", 4, 4) \

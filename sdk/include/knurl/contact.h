@@ -29,6 +29,13 @@ typedef struct knurl_mesh_desc {
                          give the x direction if there are no tangents */
     const uint32_t *indices; /**< three per triangle, each below vertex_count; or null for 0, 1, 2, ... */
     uint64_t index_count;    /**< a multiple of 3, at most 3 * 2^26; 0 if indices is null */
+    const float *normals;    /**< x, y, z per vertex, outward, unit; or null: the triangles are felt flat. With normals,
+                                the mesh is felt as the smooth surface that they describe: each triangle as a PN triangle
+                                (Vlachos et al. 2001), perpendicular to the normals at its corners. An edge at which two
+                                triangles have different normals (of vertices of their own) stays an edge. A triangle
+                                stays flat if the surface differs from it by at most 0.1 degrees and 1 um, and if its
+                                normals cannot be right: not of unit length, more than 60 degrees off its face, or so
+                                that the surface folds (knurl_surface_info.bad_normals counts these) */
 } knurl_mesh_desc;
 
 /** Fills in defaults; `size` is the caller's sizeof. [any thread] */

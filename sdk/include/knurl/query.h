@@ -60,6 +60,10 @@ typedef struct knurl_surface_info {
     uint64_t touching_pairs;   /**< pairs of the mesh's triangles that touch, but not at a shared edge: T-junctions,
                                     seams, intersecting parts. Ticks near them take longer; 0: a clean mesh. A lower
                                     bound: counting ends after 96 tests, or 4 pairs, for each triangle */
+    uint32_t curved_triangles; /**< felt curved, by the mesh's normals; 0: the mesh is felt as its triangles */
+    uint32_t bad_normals; /**< triangles felt flat because their normals cannot be right (knurl_mesh_desc.normals) */
+    double bulge; /**< m: a curved surface is felt at most this far from its triangles. Contacts' proxies,
+                     knurl_scene_find_closest() and knurl_scene_cast_ray() are on the triangles */
 } knurl_surface_info;
 
 /** Zeroes it and sets struct_size; `size` is the caller's sizeof. [any thread] */

@@ -57,7 +57,7 @@ void knurl_mesh_destroy(knurl_heap *heap, knurl_mesh *mesh) {
     if (mesh) {
         void *const parts[] = {mesh->positions,  mesh->tangents, mesh->uvs,          mesh->triangles,
                                mesh->attributes, mesh->opposite, mesh->non_manifold, mesh->non_manifold_corners,
-                               mesh->nodes};
+                               mesh->nodes,      mesh->normals};
         for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
             knurl_heap_free(heap, parts[i]);
         }
@@ -69,7 +69,7 @@ uint64_t knurl_mesh_bytes(const knurl_mesh *mesh) {
     const void *const parts[] = {mesh,           mesh->positions,    mesh->tangents,
                                  mesh->uvs,      mesh->triangles,    mesh->attributes,
                                  mesh->opposite, mesh->non_manifold, mesh->non_manifold_corners,
-                                 mesh->nodes};
+                                 mesh->nodes,    mesh->normals};
     uint64_t bytes = 0;
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
         bytes += knurl_heap_size(parts[i]);

@@ -34,6 +34,7 @@ typedef struct knurl_mesh {
     uint32_t *triangles;  /* three vertices per triangle, in the hierarchy's leaf order */
     uint32_t *attributes; /* three per triangle: indices in uvs and tangents; null: same as the vertices */
     uint32_t *opposite;   /* three per triangle: of each corner, the corner opposite across the edge, and flags */
+    uint32_t *normals;    /* smooth mesh: three per triangle, packed (mesh_normals.h); null: all triangles are flat */
     knurl_vertex_corners *non_manifold; /* sorted by vertex, or null */
     uint32_t *non_manifold_corners;     /* the corners of those, run after run, or null */
     knurl_bvh_node *nodes;              /* the hierarchy; [0] is the root */
@@ -48,6 +49,9 @@ typedef struct knurl_mesh {
     int32_t double_sided;    /* 1: more than a few have reversed twins, or no front was found */
     double seam;             /* m: edges side by side within this distance touch */
     uint32_t touching;       /* pairs of triangles that touch, except along a shared edge */
+    uint32_t curved;         /* triangles that are felt curved */
+    uint32_t bad_normals;    /* triangles that are felt flat because their normals do not describe a surface */
+    double bulge;            /* m: greatest distance of the felt surface from the triangles */
     int32_t has_axis;        /* 1: x runs along `axis`, not along tangents or uvs */
     double axis[3];          /* unit */
     double uv_scale[2];      /* su, sv: area-weighted means of |dP/du|, |dP/dv|, m; 0 without uvs */

@@ -7,6 +7,7 @@
 #include "contact/contact.h"
 #include "contact/mesh_adjacency.h"
 #include "contact/mesh_frame.h"
+#include "contact/mesh_normals.h"
 #include "contact/mesh_touch.h"
 #include "contact/mesh_winding.h"
 #include "contact/seeded_hash.h"
@@ -252,11 +253,17 @@ static knurl_result build_mesh(draft *d) {
     result = result ? result : number_corners(d);
     result = result ? result : copy_vertices(d);
     result = result ? result : knurl_mesh_link(d->heap, d->mesh, d->welded, d->welded_count);
+    if (!result && d->desc->normals) {
+        result = knurl_mesh_pack_normals(d->heap, d->desc, d->corners, d->mesh);
+    }
     if (!result) {
         d->mesh->seam = seam_of(d->mesh);
         d->mesh->touching = knurl_mesh_count_touching(d->mesh);
         result = knurl_mesh_unify_winding(d->heap, d->mesh);
         knurl_mesh_measure_uvs(d->mesh);
+    }
+    if (!result && d->mesh->normals) {
+        knurl_mesh_settle_normals(d->heap, d->mesh);
     }
     knurl_heap_free(d->heap, d->welds);
     knurl_heap_free(d->heap, d->corners);

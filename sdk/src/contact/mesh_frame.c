@@ -202,6 +202,17 @@ static void frame_along(const double normal[3], const double along[3], double x[
     vec3_cross(normal, x, y);
 }
 
+/* m: the coordinate across the axis. On a smooth mesh, whose y turns along the way, it is measured along the triangle's
+ * y. */
+static double across_triangle(const knurl_mesh *mesh, const knurl_contact *contact) {
+    knurl_triangle t;
+    double x[3], y[3];
+    knurl_mesh_triangle(mesh, contact->triangle, &t);
+    vec3_scale(vec3_dot(t.normal, contact->normal) < 0.0 ? -1.0 : 1.0, t.normal, t.normal);
+    frame_along(t.normal, mesh->axis, x, y);
+    return vec3_dot(contact->proxy, y);
+}
+
 static void find_frame(const knurl_mesh *mesh, const knurl_contact *contact, double x[3], double y[3],
                        double coordinates[2]) {
     double along[3];
@@ -213,7 +224,7 @@ static void find_frame(const knurl_mesh *mesh, const knurl_contact *contact, dou
     frame_along(contact->normal, along, x, y);
     if (mesh->has_axis) {
         coordinates[0] = vec3_dot(contact->proxy, mesh->axis);
-        coordinates[1] = vec3_dot(contact->proxy, y);
+        coordinates[1] = mesh->normals ? across_triangle(mesh, contact) : vec3_dot(contact->proxy, y);
     }
 }
 
@@ -276,6 +287,11 @@ static int rates_on_facet(const knurl_mesh *mesh, knurl_facet *f, const double v
 int knurl_mesh_rates(const knurl_mesh *mesh, const knurl_contact *contact, const double velocity[3], double rates[2],
                      double *steepest) {
     double x[3], y[3], coordinates[2];
+    if (mesh->tangents && mesh->normals && contact->facet && !mesh->has_axis) {
+        knurl_facet curved = *contact->facet; /* a copy: with tangents, a kept frame would be wrong */
+        keep_frame(mesh, &curved);
+        return rates_on_facet(mesh, &curved, velocity, rates, steepest);
+    }
     if (!mesh->has_axis) {
         return contact->facet && contact->facet->has_frame
                    ? rates_on_facet(mesh, contact->facet, velocity, rates, steepest)

@@ -153,6 +153,9 @@ static void turn_over(knurl_mesh *mesh, const uint8_t *marks) {
         if (marks[t] & TURNED) {
             swap(mesh->triangles, t);
             swap(mesh->opposite, t);
+            if (mesh->normals) {
+                swap(mesh->normals, t);
+            }
             if (mesh->attributes) {
                 swap(mesh->attributes, t);
             }

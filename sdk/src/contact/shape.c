@@ -6,6 +6,7 @@
 #include "contact/mesh_build.h"
 #include "contact/mesh_cast.h"
 #include "contact/mesh_contact.h"
+#include "contact/mesh_normals.h"
 #include "contact/mesh_query.h"
 #include "contact/plane_from_mesh.h"
 
@@ -111,6 +112,9 @@ static void mesh_facts(const void *geometry, knurl_shape_facts *facts) {
                               .mixed = mesh->mixed,
                               .seam = mesh->seam,
                               .touching = mesh->touching,
+                              .curved = mesh->curved,
+                              .bad_normals = mesh->bad_normals,
+                              .bulge = mesh->bulge,
                               .error = 0.0}; /* meshes are stored as given, in floats */
     memcpy(made.stretch, mesh->stretch, sizeof made.stretch);
     *facts = made;
@@ -160,6 +164,7 @@ static void set_mesh(knurl_shape *shape, knurl_mesh *mesh, const double *axis) {
     shape->has_coordinates = mesh->uvs || axis;
     shape->double_sided = mesh->double_sided;
     shape->seam = mesh->seam;
+    shape->bulge = mesh->bulge;
 }
 
 static knurl_result check_extent(const char *key, double value) {
@@ -202,7 +207,10 @@ static knurl_result from_mesh(knurl_heap *heap, const knurl_shape_desc *d, knurl
                           "axis: expected one for a mesh with neither tangents nor uvs, found none");
     }
     shape->why = "the full model was requested (KNURL_FULL_MESHES)";
-    if (!result && !d->full_model) {
+    const int curves = !result && knurl_mesh_curves(&desc);
+    if (curves) {
+        shape->why = "its normals describe a curved surface";
+    } else if (!result && !d->full_model) {
         result = knurl_plane_from_mesh(heap, &desc, d->axis, &plane, position, rotation, &shape->why);
     }
     if (!result && !plane) {

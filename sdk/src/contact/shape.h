@@ -29,9 +29,9 @@ typedef struct knurl_shape {
     const knurl_shape_functions *functions;
     void *geometry;           /* passed to the functions */
     const knurl_plane *plane; /* the geometry if it is a plane, else null: a direct call is faster */
-    double low[3];            /* bounds, m */
-    double high[3];
-    double seam;             /* m: beyond its edges that a cast still hits */
+    double low[3], high[3];   /* bounds, m */
+    double seam;              /* m: beyond its edges that a cast still hits */
+    double bulge; /* m: greatest distance of the felt surface from a smooth mesh's triangles; 0: felt as is */
     int32_t has_coordinates; /* 1: uvs, an axis or a plane's own metres give positions on the grating */
     int32_t double_sided;    /* 1: every triangle can be touched from both sides */
     const char *why;         /* static: reason for this model */

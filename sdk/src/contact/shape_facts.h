@@ -16,6 +16,9 @@ typedef struct knurl_shape_facts {
     uint32_t mixed;          /* triangles that still face against the rest of their component */
     double seam;             /* m: edges side by side within this distance touch */
     uint32_t touching;       /* pairs of triangles that touch, except along a shared edge */
+    uint32_t curved;         /* triangles that are felt curved */
+    uint32_t bad_normals;    /* triangles that are felt flat because their normals do not describe a surface */
+    double bulge;            /* m: greatest distance of the felt surface from the triangles */
     double error;            /* m: largest distance of the model from its description */
     double stretch[2][3];    /* min, mean, max of d(surface coordinate)/d(metre along x), and along y */
 } knurl_shape_facts;

@@ -108,7 +108,7 @@ static inline void knurl_force_law(const knurl_hip_motion *hip, const knurl_acti
     out->velocity[1] = velocity.y;
     play_grating(hip, c, over, velocity, coordinates, wall, out);
     wall->height = out->grating.height;
-    vec3_scale(normal_force(wall, vec3_dot(over, c->contact.normal)), c->candidate->normal, out->force);
+    vec3_scale(normal_force(wall, vec3_dot(over, c->contact.normal)), c->normal, out->force);
     if (c->record->material.friction > 0.0) {
         double tangential[3], force[3];
         friction_force(c, wall, tangential);

@@ -71,6 +71,7 @@ static inline int hold_alone(knurl_contacts *c, const knurl_broad_index *index, 
             c->asked.held = held;
             c->asked.state = *state;
             c->asked.contact = a->contact;
+            c->asked.parts.count = 0;
             c->asked_of = candidate;
             *state = before;
         }
@@ -79,7 +80,9 @@ static inline int hold_alone(knurl_contacts *c, const knurl_broad_index *index, 
     vec3_copy(proxy, candidate->proxy);
     vec3_copy(normal, candidate->normal);
     vec3_copy(hip, candidate->previous);
-    a->begins = 0;
+    a->normal = candidate->normal;
+    a->begins = a->is_unfelt = 0;
+    a->felt.parts.count = 0;
     c->active_count = 1;
     c->pressed = (uint32_t)state->inside;
     return 1;

@@ -44,5 +44,8 @@ int knurl_contacts_add(knurl_contacts *c, knurl_candidate *candidate, const knur
     candidate->in_contact = 1;
     knurl_pose_to_parent(a->pose, a->contact.proxy, candidate->proxy);
     knurl_pose_vector_to_parent(a->pose, a->contact.normal, candidate->normal);
+    a->normal = candidate->normal;
+    a->is_unfelt = 0;
+    a->felt.parts = touched->parts;
     return 1;
 }

@@ -5,6 +5,7 @@
 
 #include "base/atomic.h"
 #include "base/base.h"
+#include "proxy/felt_parts.h"
 #include "proxy/obstacles.h"
 
 #include <knurl/hip.h>
@@ -26,6 +27,13 @@ typedef struct knurl_active_contact {
     const knurl_pose *pose;     /* of the shape's frame, now */
     knurl_contact contact;      /* shape's frame */
     int32_t begins;             /* 1: not in contact at the last tick */
+    int32_t is_unfelt;          /* 1: in contact with a smooth mesh's triangles, but not with its surface */
+    const double *normal;       /* as felt, scene: the candidate's, or that of `felt` */
+    struct {                    /* on a smooth mesh, whose triangles hold the proxy */
+        knurl_felt_parts parts;
+        double normal[3];  /* scene */
+        knurl_facet facet; /* the plane that touches the surface there */
+    } felt;
 } knurl_active_contact;
 
 /* A HIP that was pressed into a surface and has come off its rim. */
@@ -41,6 +49,7 @@ typedef struct knurl_touched {
     int32_t held;
     knurl_contact_state state;
     knurl_contact contact;
+    knurl_felt_parts parts; /* of a smooth mesh */
 } knurl_touched;
 
 /* Of one HIP, from tick to tick. */

@@ -125,6 +125,7 @@ static void keep_contact(const knurl_joint_search *m, const knurl_obstacle *o, k
     contact->z = vec3_dot(at, contact->normal);
     contact->unsure = 0;
     contact->facet = NULL;
+    touched->parts.count = 0;
     touched->state.inside = candidate->contact.inside && contact->z <= KNURL_ON_SURFACE;
     touched->held = contact->z <= reach && (touched->state.inside || contact->z >= 0.0);
 }

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT */
 #include "proxy/joint_faces.h"
 
+#include "proxy/felt.h"
 #include "proxy/god_object.h"
 
 #include <string.h>
@@ -31,6 +32,18 @@ static void sum_faces(const knurl_joint_search *m, const knurl_active_faces *fac
     touched->contact.z = depth < longest ? -depth : -longest;
     touched->contact.unsure = 0;
     touched->contact.facet = NULL;
+    touched->parts.count = 0;
+    if (o->surface->shape.bulge > 0.0) {
+        for (uint32_t i = 0; i < faces->count; i++) {
+            const knurl_active_face *face = &faces->list[i];
+            if (face->obstacle == obstacle && face->press > 0.0) {
+                double push[3];
+                vec3_scale(face->press * -touched->contact.z / depth, face->hit.normal, push);
+                knurl_felt_add_part(o->surface->shape.geometry, face->hit.triangle, push, face == most,
+                                    &touched->parts);
+            }
+        }
+    }
 }
 
 /* Turns the god-object's faces into contacts. */

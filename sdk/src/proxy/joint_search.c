@@ -51,6 +51,7 @@ void knurl_joint_collect_all(knurl_joint_search *m) {
 static void query_shape(const knurl_joint_search *m, const knurl_obstacle *o, const double hip[3],
                         const double *previous, knurl_touched *touched) {
     knurl_contact_query query;
+    touched->parts.count = 0;
     query.has_previous = previous != NULL;
     query.reach = o->record->reach;
     query.double_sided = o->surface->double_sided;

@@ -107,8 +107,7 @@ static knurl_result set_material(knurl_scene *scene, knurl_surface_id surface, c
     if (!record) {
         return KNURL_ERROR_MEMORY;
     }
-    const knurl_result result =
-        knurl_record_set_material(record, data->shape.has_coordinates, material, scene->full_model);
+    const knurl_result result = knurl_record_set_material(record, &data->shape, material, scene->full_model);
     if (result) {
         knurl_heap_free(&scene->heap, record);
         return result;

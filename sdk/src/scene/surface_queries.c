@@ -231,13 +231,19 @@ uint32_t knurl_scene_get_contacts(const knurl_scene *scene, uint32_t hip, knurl_
         return 0;
     }
     const knurl_contacts *c = &scene->hips[hip].contacts;
-    for (uint32_t i = 0; contacts && i < c->active_count && i < capacity; i++) {
-        const knurl_candidate *candidate = c->active[i].candidate;
-        memset(&contacts[i], 0, sizeof contacts[i]);
-        contacts[i].surface = knurl_surfaces_make_id(&scene->surfaces, candidate->place, candidate->generation);
-        vec3_copy(candidate->proxy, contacts[i].proxy);
-        vec3_copy(candidate->normal, contacts[i].normal);
-        contacts[i].depth = -c->active[i].contact.z;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < c->active_count; i++) {
+        const knurl_active_contact *active = &c->active[i];
+        const knurl_candidate *candidate = active->candidate;
+        if (active->is_unfelt || count++ >= capacity || !contacts) {
+            continue;
+        }
+        knurl_hip_contact *contact = &contacts[count - 1];
+        memset(contact, 0, sizeof *contact);
+        contact->surface = knurl_surfaces_make_id(&scene->surfaces, candidate->place, candidate->generation);
+        vec3_copy(candidate->proxy, contact->proxy);
+        vec3_copy(active->normal, contact->normal);
+        contact->depth = -active->contact.z;
     }
-    return c->active_count;
+    return count;
 }

@@ -8,6 +8,7 @@
 #include "base/atomic.h"
 #include "base/base.h"
 #include "motion/velocity.h"
+#include "proxy/felt.h"
 
 #include <stddef.h>
 #include <string.h>
@@ -107,7 +108,7 @@ static inline void report_contact(const knurl_active_contact *contact, const knu
         return;
     }
     vec3_copy(contact->candidate->proxy, out->proxy);
-    vec3_copy(contact->candidate->normal, out->normal);
+    vec3_copy(contact->normal, out->normal);
     out->surface_velocity[0] = share->velocity[0];
     out->surface_velocity[1] = share->velocity[1];
     out->depth = -contact->contact.z;
@@ -131,8 +132,10 @@ static inline void count_grating(knurl_hip *hip, const knurl_active_contact *con
 }
 
 /* Computes one contact's force and adds it to the sum. Returns its texture's step, N. */
-static inline double render_contact(knurl_hip *hip, const knurl_active_contact *c, double sum[3],
-                                    knurl_tick_output *out) {
+static inline double render_contact(knurl_hip *hip, knurl_active_contact *c, double sum[3], knurl_tick_output *out) {
+    if (KNURL_UNLIKELY(c->surface->shape.bulge > 0.0) && !knurl_felt_find(c)) {
+        return 0.0;
+    }
     const knurl_hip_motion motion = {&hip->contacts.clock, out->hip_velocity, hip->rate, hip->quantum};
     const int64_t events = c->candidate->grating.event_count;
     knurl_wall wall;

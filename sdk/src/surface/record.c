@@ -43,7 +43,7 @@ static knurl_result check_material(knurl_material_desc *m) {
     return result;
 }
 
-knurl_result knurl_record_set_material(knurl_record *record, int has_coordinates, const knurl_material_desc *desc,
+knurl_result knurl_record_set_material(knurl_record *record, const knurl_shape *shape, const knurl_material_desc *desc,
                                        uint32_t full_model) {
     knurl_material_desc m;
     knurl_material_desc_init(&m, sizeof m);
@@ -53,7 +53,7 @@ knurl_result knurl_record_set_material(knurl_record *record, int has_coordinates
         return result;
     }
     const int smooth = m.amplitude == 0.0 || (m.spatial_frequency[0] == 0.0 && m.spatial_frequency[1] == 0.0);
-    if (knurl_methods[m.method].needs_position && !smooth && !has_coordinates) {
+    if (knurl_methods[m.method].needs_position && !smooth && !shape->has_coordinates) {
         return knurl_fail(KNURL_ERROR_ARGUMENT,
                           "method: %s needs surface coordinates: expected uvs or an axis, found neither",
                           knurl_method_name(m.method));
@@ -61,7 +61,8 @@ knurl_result knurl_record_set_material(knurl_record *record, int has_coordinates
     record->material = m;
     record->cos_sin[0] = cos(m.orientation);
     record->cos_sin[1] = sin(m.orientation);
-    record->reach = smooth ? 0.0 : m.amplitude * knurl_methods[m.method].crest;
+    record->crest = smooth ? 0.0 : m.amplitude * knurl_methods[m.method].crest;
+    record->reach = record->crest + shape->bulge;
     record->is_smooth = smooth;
     record->is_oriented = record->cos_sin[1] != 0.0 || record->cos_sin[0] != 1.0;
     record->has_grating = !smooth || (full_model & KNURL_FULL_GRATING) != 0;

@@ -2,6 +2,7 @@
 #ifndef KNURL_SRC_RECORD_H
 #define KNURL_SRC_RECORD_H
 
+#include "contact/shape.h"
 #include "surface/epoch.h"
 #include "surface/pose.h"
 
@@ -12,14 +13,15 @@ typedef struct knurl_record {
     knurl_retired retired;
     knurl_material_desc material; /* method resolved */
     double cos_sin[2];            /* of the orientation */
-    double reach;                 /* highest crest: m in front of the surface at which contact begins */
-    int32_t has_grating;          /* 0: nothing to play, the grating stage is skipped */
-    int32_t is_smooth;            /* 1: neither ridges nor height */
-    int32_t is_oriented;          /* 0: the orientation is 0, and is skipped */
-    knurl_motion motion;          /* of the shape's frame */
-    float arrived[6];             /* box after the motion, with a margin; scene axes */
-    float moving_box[6];          /* scene axes, crests included: bounds the whole motion */
-    float end_box[6];             /* the same after the motion */
+    double crest;                 /* m: height of the highest crest */
+    double reach;        /* m in front of the shape at which contact begins: the crest, and the shape's bulge */
+    int32_t has_grating; /* 0: nothing to play, the grating stage is skipped */
+    int32_t is_smooth;   /* 1: neither ridges nor height */
+    int32_t is_oriented; /* 0: the orientation is 0, and is skipped */
+    knurl_motion motion; /* of the shape's frame */
+    float arrived[6];    /* box after the motion, with a margin; scene axes */
+    float moving_box[6]; /* scene axes, crests included: bounds the whole motion */
+    float end_box[6];    /* the same after the motion */
 } knurl_record;
 
 /* The box of a record's surface from `time` (s) on. Allowed in a tick. */
@@ -27,9 +29,9 @@ static inline const float *knurl_record_box(const knurl_record *record, double t
     return knurl_motion_is_over(&record->motion, time) ? record->end_box : record->moving_box;
 }
 
-/* Checks a material and sets it in a record, with the values derived from it. has_coordinates: 1 if the surface has uvs
- * or an axis. Errors: as knurl_scene_set_material(). */
-knurl_result knurl_record_set_material(knurl_record *record, int has_coordinates, const knurl_material_desc *desc,
+/* Checks a material and sets it in a record, with the values derived from it and from the surface's shape. Errors: as
+ * knurl_scene_set_material(). */
+knurl_result knurl_record_set_material(knurl_record *record, const knurl_shape *shape, const knurl_material_desc *desc,
                                        uint32_t full_model);
 
 /* A copy to edit, or an empty record if `record` is null. Returns null, with an error, if out of memory. */

@@ -234,9 +234,7 @@ static knurl_result fill_in(knurl_heap *heap, const knurl_surface_desc *d, uint3
     surface->radius = result ? 0.0 : find_radius(surface);
     surface->record = result ? NULL : knurl_record_copy(heap, NULL);
     result = !result && !surface->record ? KNURL_ERROR_MEMORY : result;
-    result = result
-                 ? result
-                 : knurl_record_set_material(surface->record, surface->shape.has_coordinates, d->material, full_model);
+    result = result ? result : knurl_record_set_material(surface->record, &surface->shape, d->material, full_model);
     result = result ? result : set_name(heap, d->name, surface);
     if (!result) {
         knurl_motion_place(&pose, &surface->local, &surface->record->motion);

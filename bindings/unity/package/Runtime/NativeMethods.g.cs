@@ -60,6 +60,7 @@ namespace Knurl
         public float* uvs;
         public uint* indices;
         public ulong index_count;
+        public float* normals;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -471,6 +472,9 @@ namespace Knurl
         public fixed double stretch_y[3];
         public double seam;
         public ulong touching_pairs;
+        public uint curved_triangles;
+        public uint bad_normals;
+        public double bulge;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -628,7 +632,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "f57ca69f8ab05789";
+        internal const string Interface = "70101b03ba6c8dec";
 
         internal const string Version = "0.3.0";
 

@@ -1,0 +1,192 @@
+/* Which triangles of a mesh with normals are felt curved: what normals may be, and what is told of others.
+ * SPDX-License-Identifier: MIT */
+#include "scene/smooth.h"
+
+#define K 400.0
+
+static knurl_surface_info info_of(knurl_scene *scene) {
+    knurl_surface_info info;
+    knurl_surface_info_init(&info, sizeof info);
+    assert_int_equal(knurl_scene_get_surface_info(scene, knurl_scene_get_surface(scene, 0), &info), KNURL_OK);
+    return info;
+}
+
+static knurl_scene *scene_with(const smooth_mesh *m) {
+    surface_parts parts = smooth_surface(m, 1);
+    parts.material.stiffness = K;
+    return scene_of(&parts);
+}
+
+/* A sphere, one of whose vertices has another normal. Returns the number of bad triangles of the five or six there. */
+static uint32_t bad_with(double x, double y, double z) {
+    smooth_mesh m = smooth_make_sphere(3);
+    const double normal[3] = {x, y, z};
+    for (int axis = 0; axis < 3; axis++) {
+        m.normals[axis] = (float)normal[axis];
+    }
+    knurl_scene *scene = scene_with(&m);
+    const knurl_surface_info info = info_of(scene);
+    double p[3], n[3];
+    shape_get(&m.s, 0, p);
+    const double length = length3(p);
+    for (int k = 0; k < 200; k++) { /* it holds all the same */
+        for (int axis = 0; axis < 3; axis++) {
+            n[axis] = p[axis] / length * (0.035 - 0.00004 * k) + 0.0001 * (axis == 0);
+        }
+        const knurl_tick_output out = tick_at(scene, n[0], n[1], n[2]);
+        assert_true(length3(out.force) <= K * (0.03 - length3(n) + 0.001) || length3(n) > 0.0305);
+        assert_true(k < 135 || length3(out.force) > 0.0);
+    }
+    assert_int_equal(info.curved_triangles + info.bad_normals, 1280);
+    knurl_scene_destroy(scene);
+    smooth_free(&m);
+    return info.bad_normals;
+}
+
+TEST(normals_that_cannot_be_right_are_told_and_their_triangles_felt_flat) {
+    const double g = 0.5 * (1.0 + sqrt(5.0)), unit = 1.0 / sqrt(1.0 + g * g); /* of the first vertex: -1, g, 0 */
+    assert_int_equal(bad_with(-unit, g * unit, 0.0), 0);
+    assert_int_equal(bad_with(-0.95 * unit, 0.95 * g * unit, 0.0), 0); /* of signed bytes */
+    assert_int_equal(bad_with(unit, -g * unit, 0.0), 5);               /* turned */
+    assert_int_equal(bad_with(-2.0 * unit, 2.0 * g * unit, 0.0), 5);   /* not unit */
+    assert_int_equal(bad_with(0.0, 0.0, 0.0), 5);
+    assert_int_equal(bad_with(NAN, 0.0, 1.0), 5);
+    assert_int_equal(bad_with(HUGE_VAL, 0.0, 0.0), 5);
+    assert_int_equal(bad_with(g * unit, unit, 0.0), 5); /* 90 degrees off */
+}
+
+TEST(a_smooth_sphere_says_how_far_it_is_from_its_triangles) {
+    smooth_mesh m = smooth_make_sphere(2);
+    knurl_scene *scene = scene_with(&m);
+    const knurl_surface_info info = info_of(scene);
+    double low = HUGE_VAL;
+    for (uint32_t i = 0; i < m.s.index_count / 3; i++) {
+        double corners[3][3], n[3];
+        shape_corners(&m.s, i, corners);
+        (void)normal3((const double (*)[3])corners, n);
+        low = fmin(low, dot3(corners[0], n));
+    }
+    assert_int_equal(info.curved_triangles, 320);
+    assert_int_equal(info.bad_normals, 0);
+    assert_true(info.bulge >= 0.98 * (0.03 - low) && info.bulge < 1.2 * (0.03 - low)); /* the patch is 1 % off */
+    knurl_scene_destroy(scene);
+    smooth_free(&m);
+}
+
+/* With the normals of their faces, meshes are felt as without normals, to the bit. */
+TEST(flat_normals_change_nothing) {
+    smooth_mesh m = smooth_make_sphere(2);
+    shape_unweld(&m.s);
+    free(m.normals);
+    m.normals = calloc(m.s.vertex_count, 3 * sizeof(float));
+    for (uint32_t i = 0; i < m.s.index_count / 3; i++) {
+        double corners[3][3], n[3];
+        shape_corners(&m.s, i, corners);
+        (void)normal3((const double (*)[3])corners, n);
+        for (uint32_t k = 0; k < 9; k++) {
+            m.normals[9 * i + k] = (float)n[k % 3];
+        }
+    }
+    surface_parts parts = smooth_surface(&m, 0);
+    knurl_scene *with = scene_with(&m), *without = scene_of(&parts);
+    assert_int_equal(info_of(with).curved_triangles + info_of(with).bad_normals, 0);
+    for (int k = 0; k < 2000; k++) {
+        const double at[3] = {0.0285 * cos(0.005 * k), 0.01 * sin(0.013 * k), 0.0285 * sin(0.005 * k)};
+        const knurl_tick_output a = tick_at(with, at[0], at[1], at[2]), b = tick_at(without, at[0], at[1], at[2]);
+        check_same_output(&a, &b);
+    }
+    knurl_scene_destroy(with);
+    knurl_scene_destroy(without);
+    smooth_free(&m);
+}
+
+/* A flat sheet stays a plane with normals that stand on it, and does not with others. */
+TEST(a_flat_mesh_is_a_plane_if_its_normals_are) {
+    for (int bent = 0; bent < 2; bent++) {
+        smooth_mesh m = {shape_sheet(4, 4, (const double[2]){0.05, 0.05}, NULL), NULL};
+        m.normals = calloc(m.s.vertex_count, 3 * sizeof(float));
+        for (uint32_t v = 0; v < m.s.vertex_count; v++) {
+            const double x = bent ? 4.0 * (double)m.s.positions[3 * v] : 0.0; /* as on a cylinder of 0.25 m */
+            m.normals[3 * v] = (float)sin(x);
+            m.normals[3 * v + 2] = (float)cos(x);
+        }
+        knurl_scene *scene = scene_with(&m);
+        const knurl_surface_info info = info_of(scene);
+        assert_string_equal(info.model, bent ? "mesh+bvh" : "plane");
+        assert_int_equal(info.curved_triangles, bent ? 32 : 0);
+        knurl_scene_destroy(scene);
+        smooth_free(&m);
+    }
+}
+
+/* A roof of two smooth sheets, bent alike, that meet at an edge of 60 degrees: vertices of their own there. */
+TEST(an_edge_with_split_normals_stays_an_edge) {
+    smooth_mesh m = {shape_new(8, 12, 1), calloc(8, 3 * sizeof(float))};
+    static const float slopes[4] = {-0.55f, -0.4f, 0.4f, 0.55f};
+    for (uint32_t v = 0; v < 8; v++) { /* left foot, left ridge, right ridge, right foot; two of each */
+        const double x = v < 2 ? -0.02 : v < 6 ? 0.0 : 0.02;
+        shape_set(&m.s, v, x, v % 2 ? 0.02 : -0.02, x == 0.0 ? 0.02 * tan(SMOOTH_PI / 6.0) : 0.0);
+        const float slope = slopes[v / 2];
+        m.normals[3 * v] = slope;
+        m.normals[3 * v + 2] = sqrtf(1.0f - slope * slope);
+    }
+    uint32_t at = shape_quad(&m.s, 0, 0, 2, 3, 1);
+    (void)shape_quad(&m.s, at, 4, 6, 7, 5);
+    knurl_scene *scene = scene_with(&m);
+    assert_int_equal(info_of(scene).curved_triangles, 4);
+    const double top = 0.02 * tan(SMOOTH_PI / 6.0);
+    (void)tick_at(scene, -0.002, 0.001, top + 0.002);
+    const knurl_tick_output left = tick_at(scene, -0.0008, 0.001, top - 0.0015);
+    (void)tick_at(scene, 0.002, 0.001, top + 0.002);
+    const knurl_tick_output right = tick_at(scene, 0.0008, 0.001, top - 0.0015);
+    CHECK_CLOSE(left.normal[0], -0.4, 0.02);
+    CHECK_CLOSE(right.normal[0], 0.4, 0.02);
+    CHECK_CLOSE(length3(left.force), length3(right.force), 0.001); /* the diagonals of the quads differ */
+    knurl_scene_destroy(scene);
+    smooth_free(&m);
+}
+
+/* Seen from its other side, and with the winding of one triangle reversed, a surface is the same one. */
+TEST(both_sides_of_a_smooth_sheet_are_one_surface) {
+    smooth_mesh m = smooth_make(&smooth_patches[3], 300); /* a cylinder of 40 mm, from inside */
+    surface_parts parts = smooth_surface(&m, 1);
+    parts.material.stiffness = K;
+    parts.desc.double_sided = 1;
+    knurl_scene *scene = scene_of(&parts);
+    static const double depths[] = {0.0001, 0.001, 0.003};
+    for (int side = -1; side <= 1; side += 2) {
+        for (size_t i = 0; i < COUNT_OF(depths); i++) {
+            for (double u = -0.6; u < 0.6; u += 0.0137) {
+                const double r = 0.04 + side * depths[i], far = 0.04 - side * 0.006;
+                configure_plainly(scene, 0);
+                (void)tick_at(scene, far * cos(u), far * sin(u), 0.003);
+                const knurl_tick_output out = tick_at(scene, r * cos(u), r * sin(u), 0.003);
+                CHECK_CLOSE(out.depth, depths[i], 2e-6);
+                CHECK_VECTOR(out.normal, -side * cos(u), -side * sin(u), 0.0, 1e-3);
+            }
+        }
+    }
+    knurl_scene_destroy(scene);
+    smooth_free(&m);
+}
+
+/* A smooth mesh that is moved, and shared by another surface: the same force, turned. */
+TEST(a_moved_smooth_mesh_pushes_likewise) {
+    smooth_mesh m = smooth_make_sphere(2);
+    surface_parts parts = smooth_surface(&m, 1);
+    const double half = sqrt(0.5);
+    parts.desc.position[0] = 1000.0;
+    parts.desc.rotation[2] = parts.desc.rotation[3] = half; /* a quarter turn round z */
+    parts.material.stiffness = K;
+    knurl_scene *here = scene_with(&m), *there = scene_of(&parts);
+    for (int k = 0; k < 500; k++) {
+        const double at[3] = {0.0291 * cos(0.01 * k), 0.0291 * sin(0.01 * k), 0.0003 * sin(0.1 * k)};
+        const knurl_tick_output a = tick_at(here, at[0], at[1], at[2]);
+        const knurl_tick_output b = tick_at(there, 1000.0 - at[1], at[0], at[2]);
+        CHECK_VECTOR(b.force, -a.force[1], a.force[0], a.force[2], 1e-8);
+        assert_true(k == 0 || length3(a.force) > 0.0);
+    }
+    knurl_scene_destroy(here);
+    knurl_scene_destroy(there);
+    smooth_free(&m);
+}
