@@ -202,7 +202,7 @@ check_release() {
     rm -rf "$again"
     git clone -q . "$again"
     mkdir -p "$again/build/debian11" # what was fetched need not be fetched again
-    ln -s "$PWD/build/windows" "$PWD/build/mirror-venv" "$again/build/"
+    ln -s "$PWD/build/windows" "$PWD/build/zig" "$PWD/build/mirror-venv" "$again/build/"
     ln -s "$PWD/build/debian11/root" "$again/build/debian11/root"
     KNURL_GODOT_ROOT=$GODOT_ENGINE CCACHE_DISABLE=1 "$again/run" release
     if ! diff "$1/SHA256SUMS" "$again/build/${1##*/}/SHA256SUMS"; then
