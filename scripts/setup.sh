@@ -155,7 +155,7 @@ configure() {
     mapfile -t options < <(/usr/bin/python3 -B scripts/preset.py "$preset")
     cmake -DKNURL_WARNINGS_AS_ERRORS="$(warnings_as_errors)" -DBUILD_TESTING=ON "${options[@]}" "$@" >"$log" 2>&1 ||
         { cat "$log" >&2; exit 1; }
-    sed -n 's/^ *\(tests\? .* left out: .*\)/run: SKIPPED: \1/p' "$log" >&2
+    sed -n 's/^ *\(-- \)\?\(.* \(is\|are\) left out: .*\)/run: SKIPPED: \2/p' "$log" >&2
 }
 
 # Runs the tests of a preset. usage: test_preset PRESET [OPTION...]: ctest's

@@ -52,7 +52,7 @@ static void print(const judge *j, const char *name, uint64_t seed, uint64_t tick
     json_number(&out, "ticks", (double)ticks);
     json_number(&out, "judged", (double)j->ticks);
     json_number(&out, "contacts", (double)j->contacts);
-    json_number(&out, "squeezes", (double)j->squeezes);
+    json_number(&out, "squeezed_ticks", (double)j->squeezed_ticks);
     json_open(&out, "promises", '[');
     for (int i = 0; i < JUDGE_COUNT; i++) {
         const judge_breach *b = &j->breaches[i];

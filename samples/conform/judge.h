@@ -95,8 +95,8 @@ typedef struct judge {
     knurl_surface_id deepest;
     uint64_t tick; /* of the scene's */
     int has_tick;
-    uint64_t forces, ticks, contacts, squeezes; /* counts */
-    uint64_t faults[64];                        /* events, by code */
+    uint64_t forces, ticks, contacts, squeezed_ticks; /* counts */
+    uint64_t faults[64];                              /* events, by code */
     judge_breach breaches[JUDGE_COUNT];
 } judge;
 

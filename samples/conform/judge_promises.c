@@ -185,7 +185,7 @@ void judge_tick(judge *j, const knurl_tick_output *output, const knurl_hip_conta
     j->edited -= j->edited > 0;
     j->ticks++;
     j->contacts += count > 0;
-    j->squeezes += (output->flags & KNURL_TICK_SQUEEZED) != 0;
+    j->squeezed_ticks += (output->flags & KNURL_TICK_SQUEEZED) != 0;
 }
 
 void judge_pass_over(judge *j, const knurl_tick_output *output) {

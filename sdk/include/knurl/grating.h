@@ -77,7 +77,8 @@ KNURL_API double knurl_grating_frequency(const double spatial_frequency[2], cons
 KNURL_API double knurl_grating_s1_line(double position, double spatial_frequency, double amplitude) KNURL_NONBLOCKING;
 
 /** S1 in 3D, Eq. 11: the sign of a product of cosines, decided on fractional phases: a checkerboard, or bars if one
- * frequency is 0. position: m along x and y. [any thread; allowed in a tick] */
+ * frequency is 0. position: m along x and y. spatial_frequency: cycles/m along x and y. amplitude: m. [any thread;
+ * allowed in a tick] */
 KNURL_API double knurl_grating_s1(const double position[2], const double spatial_frequency[2],
                                   double amplitude) KNURL_NONBLOCKING;
 

@@ -2,7 +2,6 @@
 #include "grating/methods.h"
 
 #include "base/finite.h"
-
 #include "base/handle.h"
 #include "grating/bandlimited.h"
 #include "grating/paper.h"

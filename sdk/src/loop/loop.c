@@ -41,7 +41,7 @@ static knurl_result check(const knurl_loop_desc *d) {
     if (!d->scene == !d->force_callback) {
         return knurl_fail(KNURL_ERROR_ARGUMENT,
                           "knurl_loop_desc: expected exactly one of scene and force_callback, found %s",
-                          d->scene ? "both" : "none");
+                          d->scene ? "both" : "neither");
     }
     if (d->scene && !knurl_load_acquire(&d->scene->committed)) {
         return knurl_fail(KNURL_ERROR_STATE, "knurl_loop_desc.scene: expected a committed scene, found an open one");
@@ -85,9 +85,9 @@ static knurl_result adopt(const knurl_loop_desc *d, knurl_hip_facts *facts) {
     if (result) {
         return result;
     }
-    const knurl_hip_facts told = {d->update_rate_hz, info.resolution, info.max_force, info.continuous_force,
+    const knurl_hip_facts made = {d->update_rate_hz, info.resolution, info.max_force, info.continuous_force,
                                   info.heat_time,    info.viscous,    info.delay,     info.max_stiffness};
-    *facts = told;
+    *facts = made;
     return d->scene ? knurl_scene_adopt_device(d->scene, d->hip, facts) : KNURL_OK;
 }
 

@@ -6,7 +6,6 @@
 #include "base/vec3.h"
 #include "scene/scene.h"
 
-#include <math.h>
 #include <string.h>
 
 void knurl_loop_init(knurl_loop *loop, const knurl_hip_facts *facts) {

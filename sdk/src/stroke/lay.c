@@ -13,14 +13,13 @@
 #define HOVER     0.005  /* m above a surface that a stroke starts from */
 #define STEP      0.0005 /* m of the device between a path's rows */
 #define HALF_ROWS 400    /* of a path, in either direction from its start: 0.2 m */
-#define SPREAD                                                                                                         \
-    0.9 /* the part of the distance to a rim or the workspace's end that is used: hands overshoot at the ends */
-#define LONG      0.040 /* m: long enough for a path; longer ones are not preferred */
-#define SHORT     0.001 /* m: shorter paths are not used */
-#define LATITUDES 12    /* starting points tried on either side of the anchor */
-#define LATITUDE  10    /* steps between them */
-#define TURN_ROWS 128   /* of a circle */
-#define PROBES    16    /* along a straight stroke */
+#define SPREAD    0.9    /* share of the distance to a rim or the workspace's end: hands overshoot at the ends */
+#define LONG      0.040  /* m: long enough for a path; longer ones are not preferred */
+#define SHORT     0.001  /* m: shorter paths are not used */
+#define LATITUDES 12     /* starting points tried on either side of the anchor */
+#define LATITUDE  10     /* steps between them */
+#define TURN_ROWS 128    /* of a circle */
+#define PROBES    16     /* along a straight stroke */
 
 /* A path in device axes: rows of a position and its normal. */
 typedef struct path {

@@ -37,7 +37,7 @@ static struct {
     int opens;
     int error;
     int is_on; /* forces are enabled */
-    int settings[2];
+    int settings[3];
     int cause;       /* of the latest time that they went off */
     double force[3]; /* that its motors play */
     double others[3];
@@ -224,7 +224,7 @@ int DHD_CALL dhdSetForceAndTorqueAndGripperForce(double fx, double fy, double fz
     lock();
     (void)id;
     move();
-    const int error = trouble();
+    const int error = stub.settings[STUB_DHD_REFUSES] ? 7 : trouble(); /* 7: timeout */
     if (!error && stub.is_on) {
         play(fx, fy, fz);
     }

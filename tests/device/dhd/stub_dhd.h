@@ -20,8 +20,9 @@ typedef void (*stub_dhd_inject_function)(int fault); /**< DOUBLE_ */
  * how many forces it was told while it played none; the greatest rise of its force in one command (N). */
 typedef void (*stub_dhd_ask_function)(double force[3], double others[3]);
 
-/** What can be set: its system type, and why its forces go off at the next DOUBLE_OFF (as DHD_FORCEOFF_). */
-enum { STUB_DHD_TYPE, STUB_DHD_CAUSE };
+/** What can be set: its system type, why its forces go off at the next DOUBLE_OFF (as DHD_FORCEOFF_), and that commands
+ * of a force time out (1). */
+enum { STUB_DHD_TYPE, STUB_DHD_CAUSE, STUB_DHD_REFUSES };
 typedef void (*stub_dhd_set_function)(int setting, int value);
 typedef int64_t (*stub_dhd_limp_function)(void); /**< ns since when its motors get nothing; 0: they get something */
 typedef int (*stub_dhd_opens_function)(void);    /**< opened less closed */

@@ -3,7 +3,9 @@
 #include "device/dhd/dhd_double.h"
 #include "support/close.h"
 
+#include "base/atomic.h"
 #include "base/system.h"
+#include "device/driver.h"
 
 #include <knurl/device.h>
 #include <knurl/loop.h>
@@ -78,6 +80,23 @@ TEST(forces_are_no_stronger_than_it_can_play) {
     const knurl_device_info info = device_info(device);
     assert_string_equal(info.name, "Force Dimension omega.3");
     CHECK_CLOSE(info.max_stiffness, 5000.0, 1e-9);
+    dhd_double.close(device);
+}
+
+/* Its button switches the forces off; the zero that follows does not arrive. */
+TEST(a_zero_that_was_refused_while_forces_are_off_does_not_count_as_sent) {
+    const double force[3] = {0.0, 2.0, 0.0};
+    knurl_device_sample sample;
+    knurl_device *device = open_released();
+    assert_int_equal(run(device, 20, force, &sample), KNURL_OK);
+    dhd_stub.set(STUB_DHD_REFUSES, 1);
+    dhd_double.inject(DOUBLE_OFF);
+    (void)run(device, 30, force, &sample);
+    assert_int_equal(knurl_load_acquire(&device->quiet), 0);
+    dhd_stub.set(STUB_DHD_REFUSES, 0);
+    (void)run(device, 30, force, &sample);
+    assert_int_equal(knurl_load_acquire(&device->quiet), 1);
+    dhd_double.inject(DOUBLE_WELL);
     dhd_double.close(device);
 }
 

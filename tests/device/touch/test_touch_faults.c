@@ -293,6 +293,23 @@ TEST_WITH(without_a_calibration_there_is_no_force_until_the_stylus_was_in_the_in
     end(&b);
 }
 
+TEST_WITH(a_missing_calibration_is_reported_again_after_a_reopening, stub_by_hand, stub_check) {
+    bench b;
+    stub.set(STUB_DEFAULT, STUB_STYLES, 4.0); /* inkwell */
+    stub.set(STUB_DEFAULT, STUB_CALIBRATION, 0x5002);
+    start(&b, 1);
+    stub.turn(10);
+    assert_int_equal(stub_events(b.device, KNURL_FAULT_UNCALIBRATED, NULL), 1);
+    stub.set(STUB_DEFAULT, STUB_ABSENT, 1.0);
+    stub.turn(10);
+    assert_int_equal(device_status(b.device).lost, 1);
+    stub.set(STUB_DEFAULT, STUB_ABSENT, 0.0);
+    assert_int_equal(knurl_device_reopen(b.device), KNURL_OK);
+    stub.turn(10);
+    assert_int_equal(stub_events(b.device, KNURL_FAULT_UNCALIBRATED, NULL), 1);
+    end(&b);
+}
+
 TEST_WITH(the_calibration_is_looked_at_every_100_ticks, stub_by_hand, stub_check) {
     bench b;
     stub.set(STUB_DEFAULT, STUB_CALIBRATION, 0x5001);

@@ -56,7 +56,7 @@ func _process(_delta: float) -> void:
 	_device.move_hip(at + _plane.normal * height)
 
 
-## A click on a button of the game's is none on what lies behind it.
+## A click on one of the game's buttons does not press the surface behind it.
 func _unhandled_input(event: InputEvent) -> void:
 	if event is InputEventMouseMotion:
 		_pointer = (event as InputEventMouseMotion).position

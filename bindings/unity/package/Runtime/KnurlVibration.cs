@@ -10,7 +10,7 @@ namespace Knurl
         /// <summary>Two even periods mixed: the frequency is exact.</summary>
         T2 = 18,
 
-        /// <summary>Whole events whose impulse is zero: it pushes nobody's hand away.</summary>
+        /// <summary>Whole events whose impulse is zero: it does not push the hand away.</summary>
         T3 = 19
     }
 }

@@ -150,7 +150,7 @@ static int exchange(knurl_device *device, const double force[3], knurl_device_sa
         return KNURL_LINK_LOST;
     }
     if (outcome != KNURL_LINK_POSITION) {
-        return outcome;
+        return is_told ? outcome : KNURL_LINK_NOTHING;
     }
     if (api.get_position(&x, &y, &z, d->id) < 0) {
         return is_gone() ? KNURL_LINK_LOST : KNURL_LINK_NOTHING;

@@ -50,11 +50,11 @@ knurl_result knurl_stroke_check(knurl_stroke_desc *s) {
     if (s->path ? s->path_rows < 2 || s->path_rows > KNURL_PATH_ROWS_MAX ||
                       (s->stroke == KNURL_STROKE_CIRCLE && s->path_loop >= s->path_rows - 1)
                 : s->path_rows != 0) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT,
-                          "stroke.path: expected 2 to %d rows and path_loop below the last, or no path and none, found "
-                          "%s of %u rows, path_loop %u",
-                          KNURL_PATH_ROWS_MAX, s->path ? "a path" : "no path", (unsigned)s->path_rows,
-                          (unsigned)s->path_loop);
+        return knurl_fail(
+            KNURL_ERROR_ARGUMENT,
+            "stroke.path: expected 2 to %d rows and path_loop below the last, or no path and 0 rows, found "
+            "%s and %u rows, path_loop %u",
+            KNURL_PATH_ROWS_MAX, s->path ? "a path" : "no path", (unsigned)s->path_rows, (unsigned)s->path_loop);
     }
     if (!vec3_finite(s->centre) || !(fabs(vec3_length(s->x) - 1.0) < 1e-3) ||
         !(fabs(vec3_length(s->normal) - 1.0) < 1e-3) || !(fabs(vec3_dot(s->x, s->normal)) < 1e-3)) {

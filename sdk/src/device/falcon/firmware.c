@@ -147,11 +147,11 @@ static knurl_result send_echoed(const knurl_falcon_transport *t, const uint8_t *
         outcome = receive(t, deadline, heard, &size);
         for (size_t i = 0; i < size; i++, echoed++) {
             if (echoed == count || heard[i] != bytes[echoed]) {
-                return knurl_fail(KNURL_ERROR_DEVICE_LOST,
-                                  "device 'falcon': loading its firmware: byte %lu came back as 0x%02x%s; switch its "
-                                  "power off and on",
-                                  (unsigned long)(at + echoed), (unsigned)heard[i],
-                                  echoed == count ? " and had not been sent" : ", which is not what was sent");
+                return knurl_fail(
+                    KNURL_ERROR_DEVICE_LOST,
+                    "device 'falcon': loading its firmware: the echo of byte %lu is 0x%02x, which was not sent; "
+                    "switch its power off and on",
+                    (unsigned long)(at + echoed), (unsigned)heard[i]);
             }
         }
     }

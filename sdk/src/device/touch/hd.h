@@ -113,7 +113,7 @@ typedef struct hd_api {
       "it cannot be reached by the connection in its set-up; run its set-up program again (Touch Setup; Linux: "       \
       "Touch_AdvancedConfig), and see that GTDD_HOME names the folder of its configuration")                           \
     X(0x0304, "the system gave HD no timer for its scheduler; see that no other program runs one")                     \
-    X(0x0400, "a frame was begun where it is not allowed")                                                             \
+    X(0x0400, "a frame was begun at a time when that is not allowed")                                                  \
     X(0x0401, "a frame was ended that was not begun")                                                                  \
     X(0x0402, "a frame was begun twice")                                                                               \
     X(0x0500, "HD's scheduler has no such priority")                                                                   \

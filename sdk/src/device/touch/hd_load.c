@@ -17,7 +17,7 @@ static const char *const usual[] = {"libHD.so", "libHD.so.3.4", "libHD.so.3.4.0"
 
 static const char help[] =
     "install 3D Systems' OpenHaptics (for Linux or Windows) and the Touch device driver, set "
-    "GTDD_HOME as they say, and name the library by ?library=PATH or KNURL_HD_LIBRARY if it is elsewhere";
+    "GTDD_HOME as their instructions say, and name the library by ?library=PATH or KNURL_HD_LIBRARY if it is elsewhere";
 
 /* One library for all devices of the process, because HD has one scheduler. */
 static struct {

@@ -104,9 +104,9 @@ namespace Knurl
         public long GetTriangleCount() { return Object.Call("get_triangle_count").AsInt64(); }
 
         /// <summary>Why this surface cannot be felt, not as asked for, or not where it is drawn: a sentence each. Empty
-        /// where all is well. In the editor it is held against every KnurlDevice of the scene, by what that device can
-        /// do; in a game against those that run, which also print these lines when they start: each once, and that a
-        /// surface is out of reach only where all are.</summary>
+        /// if all is well. In the editor it is held against every KnurlDevice of the scene, by what that device can do;
+        /// in a game against those that run, which also print these lines when they start: each once, and that a
+        /// surface is out of reach only if all are.</summary>
         public string[] GetWarnings() { return Object.Call("get_warnings").AsStringArray(); }
 
         /// <summary>Reads its parent's triangles again in the next frame. A MeshInstance3D needs no such
@@ -260,7 +260,7 @@ namespace Knurl
         /// <summary>The point where a straight line (global) first goes through what this device feels, by its
         /// triangles and as it stands now, with no part of the engine's physics: position, normal (outward), distance
         /// (m) and surface (the KnurlSurface; null for one of LoadGltf). A surface that is not double-sided is hit from
-        /// its front only. Empty where nothing is hit or the device does not run.</summary>
+        /// its front only. Empty if nothing is hit or the device does not run.</summary>
         public Godot.Collections.Dictionary CastRay(Vector3 from, Vector3 to) { return Object.Call("cast_ray", from, to).AsGodotDictionary(); }
 
         /// <summary>The latest ticks, oldest first, at most 8192: two numbers each, the grating's height in metres and
@@ -297,8 +297,7 @@ namespace Knurl
         /// Needs a fake device.</summary>
         public double[] PlayTrace(double[] rows, long ticks) { return Object.Call("play_trace", rows, ticks).AsFloat64Array(); }
 
-        /// <summary>Opens the device and starts to feel. What it returns instead of OK comes after an error that says
-        /// why.</summary>
+        /// <summary>Opens the device and starts its loop. Returns OK, or an error after printing the reason.</summary>
         public long Start() { return Object.Call("start").AsInt64(); }
 
         /// <summary>Adds a square wave to the force for Duration seconds, as a cue: a Vibration of Frequency (Hz, 0.1
@@ -354,7 +353,7 @@ namespace Knurl
         /// <summary>Two even periods mixed: the frequency is exact.</summary>
         T2 = 18,
 
-        /// <summary>Whole events whose impulse is zero: it pushes nobody's hand away.</summary>
+        /// <summary>Whole events whose impulse is zero: it does not push the hand away.</summary>
         T3 = 19,
     }
 
