@@ -92,10 +92,10 @@ std::vector<uint32_t> Fields::indices(const char *key, size_t size, const char *
     return all;
 }
 
-std::optional<std::vector<double>> Fields::numbers(const char *key, size_t count) const {
+std::vector<double> Fields::numbers(const char *key, size_t count) const {
     const Json *value = find(key);
     if (value == nullptr)
-        return std::nullopt;
+        return {};
     const std::string expected = "an array of " + std::to_string(count) + " numbers";
     const Json::Array *elements = value->array();
     if (elements == nullptr || elements->size() != count)

@@ -41,8 +41,8 @@ class Fields {
     std::optional<uint32_t> whole(const char *key, uint32_t least = 0, uint32_t most = whole_max) const;
     /** An index into an array of `size` elements; `kind` names the array in messages. */
     std::optional<uint32_t> index(const char *key, size_t size, const char *kind) const;
-    /** Exactly `count` numbers. */
-    std::optional<std::vector<double>> numbers(const char *key, size_t count) const;
+    /** Exactly `count` numbers; empty if absent. */
+    std::vector<double> numbers(const char *key, size_t count) const;
     std::optional<bool> flag(const char *key) const;
     const std::string *text(const char *key) const;
     /** The array under `key`; empty if absent. */

@@ -16,10 +16,6 @@ void put(T &to, std::optional<uint32_t> value) {
         to = static_cast<T>(*value);
 }
 
-std::vector<double> numbers_of(const Fields &from, const char *key, size_t count) {
-    return from.numbers(key, count).value_or(std::vector<double>());
-}
-
 /// The component types that accessor.cpp can read.
 uint32_t component_type_of(const Fields &from) {
     constexpr uint32_t known[] = {5120, 5121, 5122, 5123, 5125, 5126};
@@ -73,10 +69,10 @@ class Filter {
             for (const char *key : {"translation", "rotation", "scale"})
                 if (node.find(key) != nullptr)
                     node.refuse_key(key, "expected either a matrix or translation, rotation and scale, found both");
-        kept.matrix = numbers_of(node, "matrix", 16);
-        kept.translation = numbers_of(node, "translation", 3);
-        kept.rotation = numbers_of(node, "rotation", 4);
-        kept.scale = numbers_of(node, "scale", 3);
+        kept.matrix = node.numbers("matrix", 16);
+        kept.translation = node.numbers("translation", 3);
+        kept.rotation = node.numbers("rotation", 4);
+        kept.scale = node.numbers("scale", 3);
         return kept;
     }
 
@@ -141,17 +137,13 @@ class Filter {
         auto &to = kept.sparse;
         to.isSparse = true;
         put(to.count, sparse.required(sparse.whole("count", 1), "count", "the number of replaced elements"));
-        const Fields indices = sparse_part(sparse, "indices");
+        const Fields indices = sparse.required(sparse.object("indices"), "indices", "an object");
         put(to.indices.bufferView, keep_required_view(indices));
         put(to.indices.byteOffset, indices.whole("byteOffset").value_or(0));
         put(to.indices.componentType, component_type_of(indices));
-        const Fields values = sparse_part(sparse, "values");
+        const Fields values = sparse.required(sparse.object("values"), "values", "an object");
         put(to.values.bufferView, keep_required_view(values));
         put(to.values.byteOffset, values.whole("byteOffset").value_or(0));
-    }
-
-    static Fields sparse_part(const Fields &sparse, const char *key) {
-        return sparse.required(sparse.object(key), key, "an object");
     }
 
     std::optional<uint32_t> keep_view(const Fields &from) {
