@@ -34,7 +34,7 @@ loader=$objects/gltf.cpp
 find sdk/src/gltf -name '*.cpp' ! -name model.cpp | sort | sed 's|^sdk/src/\(.*\)|#include "\1"|' >"$loader.new"
 cmp -s "$loader.new" "$loader" || mv "$loader.new" "$loader"
 sources=(sdk/src/{vibration,grating,motion,contact,surface,proxy,guard,hip,scene,audio}/*.c "$loader" sdk/src/gltf/model.cpp sdk/src/base/{error,heap,range}.c
-    sdk/src/base/{regular_file,system}_posix.c samples/web/web.c)
+    sdk/src/base/{format,regular_file,system}_posix.c samples/web/web.c)
 # shellcheck disable=SC2016 # the other shell expands it
 printf '%s\n' "${sources[@]}" |
     xargs -P "$(nproc)" -I {} bash -euo pipefail -c 'compile "$1" "$2" "$3"' compile {} "$objects" "${#sources[@]}"

@@ -1,4 +1,13 @@
 /* Knurl: results, errors, versions and memory, used by all other headers.
+ *
+ * Each function's comment says in brackets who may call it:
+ * - [any thread]: any, also during other calls.
+ * - [any thread but the haptic]: the same, but it may wait for other threads, which a tick must not.
+ * - [game thread]: any thread but the haptic, one at a time: no other call marked so, with the same scene, device or
+ *   loop, runs meanwhile. It need not be the same thread each time.
+ * - [haptic thread]: the one that ticks: one thread at a time for each HIP, and for each device without a loop.
+ *
+ * Constants are ints. Fields that hold one of them are int32_t, those that hold bits uint32_t.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_BASE_H
 #define KNURL_BASE_H
@@ -89,10 +98,11 @@ typedef int32_t knurl_result;
 /** The sentence for a result code. Static, never null, also for codes unknown to this version. [any thread] */
 KNURL_API const char *knurl_result_string(knurl_result result);
 
-/** The message of the last failing call *on this thread*: the cause, the expected and the found value. The calls of the
- * haptic path (knurl_scene_tick(), knurl_device_read() and _write(), knurl_fake_get_truth()) set one of a few fixed
- * sentences, which takes no time. Valid until the next failing call on this thread; "" before the first. [any
- * thread] */
+/** The message of the last failing call *on this thread*: the cause, the expected and the found value. (If a language
+ * moves its tasks between the system's threads, as Go does, read it before the task can be moved.) Numbers have decimal
+ * points, whatever the host's locale. The calls of the haptic path (knurl_scene_tick(), knurl_device_read() and
+ * _write(), knurl_fake_get_truth()) set one of a few fixed sentences, which takes no time. Valid until the next failing
+ * call on this thread; "" before the first. [any thread] */
 KNURL_API const char *knurl_error_message(void);
 
 /** Copies untrusted text (names, paths, a file's contents) as one line that is safe to print: control characters and

@@ -2,9 +2,10 @@
 #include "base/error.h"
 
 #include "base/finite.h"
+#include "base/format.h"
 
 #include <stdarg.h>
-#include <stdio.h>
+
 #include <string.h>
 
 #define KNURL_TEXT_(x) #x
@@ -125,7 +126,7 @@ knurl_result knurl_fail(knurl_result code, const char *format, ...) {
     char text[sizeof formatted]; /* a local buffer, so that the old message may be an argument */
     va_list arguments;
     va_start(arguments, format);
-    (void)vsnprintf(text, sizeof text, format ? format : "no reason was given", arguments);
+    (void)knurl_format_arguments(text, sizeof text, format ? format : "no reason was given", arguments);
     va_end(arguments);
     (void)knurl_text_line(text, sizeof text, text); /* names from files may contain anything */
     memcpy(formatted, text, sizeof text);

@@ -1,9 +1,9 @@
 /* Checks numbers against ranges. SPDX-License-Identifier: MIT */
 #include "base/range.h"
 
+#include "base/format.h"
 #include "base/vec3.h"
 
-#include <stdio.h>
 #include <string.h>
 
 int knurl_range_holds(const knurl_range *range, double value) {
@@ -14,11 +14,12 @@ int knurl_range_holds(const knurl_range *range, double value) {
 }
 
 const char *knurl_range_text(const knurl_range *range, char *text) {
-    (void)snprintf(text, KNURL_RANGE_ROOM, "%s%s%s%s%.10g to %.10g%s%s",
-                   range->kind & KNURL_OR_DEFAULT ? "KNURL_DEFAULT (-1) or " : "",
-                   range->kind & KNURL_OR_INFINITY ? "INFINITY or " : "", range->kind & KNURL_OR_ZERO ? "0 or " : "",
-                   range->kind & KNURL_WHOLE ? "a whole number from " : "", range->least, range->most,
-                   range->unit[0] ? " " : "", range->unit);
+    (void)knurl_format(text, KNURL_RANGE_ROOM, "%s%s%s%s%.10g to %.10g%s%s",
+                       range->kind & KNURL_OR_DEFAULT ? "KNURL_DEFAULT (-1) or " : "",
+                       range->kind & KNURL_OR_INFINITY ? "INFINITY or " : "",
+                       range->kind & KNURL_OR_ZERO ? "0 or " : "",
+                       range->kind & KNURL_WHOLE ? "a whole number from " : "", range->least, range->most,
+                       range->unit[0] ? " " : "", range->unit);
     return text;
 }
 

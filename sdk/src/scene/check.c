@@ -2,10 +2,10 @@
 #include "scene/scene.h"
 
 #include "base/base.h"
+#include "base/format.h"
 #include "contact/mesh_query.h"
 #include "grating/methods.h"
 
-#include <stdio.h>
 #include <string.h>
 
 /* The inputs of a check, and its result. */
@@ -28,9 +28,9 @@ static void say(const inspection *on, uint32_t limit, const char *sentence, cons
     const size_t length = strlen(on->check->message);
     char name[44];
     (void)knurl_text_line(name, sizeof name, on->name);
-    (void)snprintf(on->check->message + length, sizeof on->check->message - length, "%ssurface '%s': %s; %s",
-                   length > 0 ? "\n" : "", name, sentence,
-                   on->clamped && limit < KNURL_LIMIT_PERIOD ? "it is felt at its limit" : advice);
+    (void)knurl_format(on->check->message + length, sizeof on->check->message - length, "%ssurface '%s': %s; %s",
+                       length > 0 ? "\n" : "", name, sentence,
+                       on->clamped && limit < KNURL_LIMIT_PERIOD ? "it is felt at its limit" : advice);
     on->check->exceeded |= limit;
 }
 
@@ -39,16 +39,16 @@ static void check_wall(const inspection *on) {
     const double k = on->check->stiffness;
     const double stable = knurl_bounds_stability(on->bounds, on->material->damping);
     if (k > stable) {
-        (void)snprintf(sentence, sizeof sentence,
-                       "stiffness %.4g N/m is %.2g times the %.4g N/m that stay stable at this rate, delay and "
-                       "friction",
-                       k, k / stable, stable);
+        (void)knurl_format(sentence, sizeof sentence,
+                           "stiffness %.4g N/m is %.2g times the %.4g N/m that stay stable at this rate, delay and "
+                           "friction",
+                           k, k / stable, stable);
         say(on, KNURL_LIMIT_STABILITY, sentence, "lower it, run faster, or clamp");
     }
     if (k > on->bounds->max_stiffness) {
-        (void)snprintf(sentence, sizeof sentence,
-                       "stiffness %.4g N/m is %.2g times the %.4g N/m that the device is made for", k,
-                       k / on->bounds->max_stiffness, on->bounds->max_stiffness);
+        (void)knurl_format(sentence, sizeof sentence,
+                           "stiffness %.4g N/m is %.2g times the %.4g N/m that the device is made for", k,
+                           k / on->bounds->max_stiffness, on->bounds->max_stiffness);
         say(on, KNURL_LIMIT_STIFFNESS, sentence, "lower it, or clamp");
     }
 }
@@ -60,22 +60,23 @@ static void check_texture(const inspection *on, double stiffness) {
     const double *fs = on->material->spatial_frequency;
     const double period = 1.0 / fmax(fs[0], fs[1]);
     char advice[64];
-    (void)snprintf(advice, sizeof advice, "lower it to %.3g m, or clamp", on->check->amplitude_limit);
+    (void)knurl_format(advice, sizeof advice, "lower it to %.3g m, or clamp", on->check->amplitude_limit);
     if (swing > on->bounds->max_force) {
-        (void)snprintf(sentence, sizeof sentence,
-                       "amplitude %.4g m swings the force by %.3g N, %.2g times the device's %.3g N",
-                       on->material->amplitude, swing, swing / on->bounds->max_force, on->bounds->max_force);
+        (void)knurl_format(sentence, sizeof sentence,
+                           "amplitude %.4g m swings the force by %.3g N, %.2g times the device's %.3g N",
+                           on->material->amplitude, swing, swing / on->bounds->max_force, on->bounds->max_force);
         say(on, KNURL_LIMIT_AMPLITUDE, sentence, advice);
     }
     if (rms > on->bounds->continuous_force) {
-        (void)snprintf(sentence, sizeof sentence,
-                       "amplitude %.4g m is %.3g N rms, %.2g times the %.3g N that its motors can hold",
-                       on->material->amplitude, rms, rms / on->bounds->continuous_force, on->bounds->continuous_force);
+        (void)knurl_format(
+            sentence, sizeof sentence, "amplitude %.4g m is %.3g N rms, %.2g times the %.3g N that its motors can hold",
+            on->material->amplitude, rms, rms / on->bounds->continuous_force, on->bounds->continuous_force);
         say(on, KNURL_LIMIT_HEAT, sentence, advice);
     }
     if (period < 2.0 * on->bounds->quantum) {
-        (void)snprintf(sentence, sizeof sentence, "ridges %.3g m apart are finer than the %.3g m of two position steps",
-                       period, 2.0 * on->bounds->quantum);
+        (void)knurl_format(sentence, sizeof sentence,
+                           "ridges %.3g m apart are finer than the %.3g m of two position steps", period,
+                           2.0 * on->bounds->quantum);
         say(on, KNURL_LIMIT_PERIOD, sentence, "lower spatial_frequency");
     }
 }
@@ -96,8 +97,9 @@ static void check_stretch(const inspection *on, const knurl_surface_data *surfac
         const double *stretch = facts.stretch[i];
         char sentence[256];
         if (fs > 0.0 && (stretch[2] > KNURL_STRETCH_MAX || stretch[0] * KNURL_STRETCH_MAX < 1.0)) {
-            (void)snprintf(sentence, sizeof sentence, "its uvs stretch: the %.4g/m along %c are felt as %.4g to %.4g/m",
-                           fs, "uv"[i], stretch[0] * fs, stretch[2] * fs);
+            (void)knurl_format(sentence, sizeof sentence,
+                               "its uvs stretch: the %.4g/m along %c are felt as %.4g to %.4g/m", fs, "uv"[i],
+                               stretch[0] * fs, stretch[2] * fs);
             say(on, KNURL_LIMIT_STRETCH, sentence, "unwrap it evenly, give it an axis, or use S2");
         }
     }
@@ -114,9 +116,9 @@ static void check_place(const inspection *on, const knurl_surface_data *surface)
         farthest = fmax(farthest, fmax(fabs(low[i]), fabs(high[i])));
     }
     if (!(farthest <= KNURL_FAR)) {
-        (void)snprintf(sentence, sizeof sentence,
-                       "it reaches %.3g m from the origin, where float32 leaves %.2g m between positions", farthest,
-                       farthest * 0x1p-24);
+        (void)knurl_format(sentence, sizeof sentence,
+                           "it reaches %.3g m from the origin, where float32 leaves %.2g m between positions", farthest,
+                           farthest * 0x1p-24);
         say(on, KNURL_LIMIT_FAR, sentence, "look for a stray vertex, or a unit other than metres");
     }
 }
@@ -125,9 +127,9 @@ static void check_place(const inspection *on, const knurl_surface_data *surface)
 static void check_visits(const inspection *on, const knurl_surface_data *surface, uint32_t max_visits) {
     if (knurl_shape_exceeds_visits(&surface->shape, surface->record->reach, max_visits)) {
         char sentence[256];
-        (void)snprintf(sentence, sizeof sentence,
-                       "in places contact looks at more than the %u triangles and nodes that a tick has time for",
-                       (unsigned)max_visits);
+        (void)knurl_format(sentence, sizeof sentence,
+                           "in places contact looks at more than the %u triangles and nodes that a tick has time for",
+                           (unsigned)max_visits);
         say(on, KNURL_LIMIT_VISITS, sentence,
             "use fewer triangles, remove those that lie over one another, or lower the crests below the mesh's width");
     }
@@ -176,7 +178,7 @@ static void check_crowd(const inspection *on, const knurl_scene *scene, const kn
     knurl_pose_to_parent(&pose, anchor.proxy, point);
     const uint32_t count = surface->shape.plane ? 0 : count_meshes_near(scene, point);
     if (count >= CROWD) {
-        (void)snprintf(
+        (void)knurl_format(
             sentence, sizeof sentence,
             "%u meshes come within 1 mm of [%.4g, %.4g, %.4g], more than a tick has time for if the hand moves fast "
             "there",
@@ -191,19 +193,19 @@ static void check_winding(const inspection *on, const knurl_surface_data *surfac
     knurl_shape_facts facts;
     knurl_shape_get_facts(&surface->shape, &facts);
     if (facts.reversed_twins > 0 && facts.reversed_twins < facts.triangle_count) {
-        (void)snprintf(sentence, sizeof sentence, "%u of its %u triangles have a reversed twin, %s",
-                       (unsigned)facts.reversed_twins, (unsigned)facts.triangle_count,
-                       surface->double_sided ? "so all of it is felt from both sides" : "which was left out");
+        (void)knurl_format(sentence, sizeof sentence, "%u of its %u triangles have a reversed twin, %s",
+                           (unsigned)facts.reversed_twins, (unsigned)facts.triangle_count,
+                           surface->double_sided ? "so all of it is felt from both sides" : "which was left out");
         say(on, KNURL_LIMIT_WINDING, sentence, "merge or delete the doubled faces in the editor");
     }
     if (facts.turned > 0) {
-        (void)snprintf(sentence, sizeof sentence,
-                       "%u of its %u triangles were wound against their neighbours, and were turned over",
-                       (unsigned)facts.turned, (unsigned)facts.triangle_count);
+        (void)knurl_format(sentence, sizeof sentence,
+                           "%u of its %u triangles were wound against their neighbours, and were turned over",
+                           (unsigned)facts.turned, (unsigned)facts.triangle_count);
         say(on, KNURL_LIMIT_WINDING, sentence, "recalculate the normals in the editor");
     }
     if (facts.mixed > 0 && !surface->double_sided) {
-        (void)snprintf(
+        (void)knurl_format(
             sentence, sizeof sentence,
             "%u of its %u triangles are wound against their neighbours, and may let the HIP through: too many "
             "triangles touch there to find the right side",

@@ -1,6 +1,7 @@
 /* Novint Falcon. Its exchanges are in exchange.c. SPDX-License-Identifier: MIT */
 #include "device/falcon/falcon_device.h"
 
+#include "base/format.h"
 #include "base/regular_file.h"
 #include "device/drivers.h"
 #include "device/falcon/firmware.h"
@@ -166,8 +167,8 @@ static void falcon_close(knurl_device *device) {
 /* As the fake device's preset "falcon", which has the sources, except for the workspace. */
 static void falcon_info(const knurl_device *device, knurl_device_info *info) {
     const falcon *f = (const falcon *)(const void *)device;
-    (void)snprintf(info->name, sizeof info->name, "Novint Falcon, gain %g%s", f->gain,
-                   f->is_gain_set ? "" : " (not weighed)");
+    (void)knurl_format(info->name, sizeof info->name, "Novint Falcon, gain %g%s", f->gain,
+                       f->is_gain_set ? "" : " (not weighed)");
     for (int axis = 0; axis < 3; axis++) {
         info->workspace_min[axis] = -KNURL_FALCON_WORKSPACE;
         info->workspace_max[axis] = KNURL_FALCON_WORKSPACE;

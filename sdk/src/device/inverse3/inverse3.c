@@ -2,6 +2,7 @@
  * exchange() first. SPDX-License-Identifier: MIT */
 #include "device/inverse3/channel.h"
 
+#include "base/format.h"
 #include "base/system.h"
 #include "device/drivers.h"
 #include "device/link.h"
@@ -340,7 +341,7 @@ static void inverse3_info(const knurl_device *device, knurl_device_info *info) {
     const inverse3 *d = (const inverse3 *)(const void *)device;
     (void)snprintf(info->name, sizeof info->name, "%s", models[d->model].name);
     if (d->force_gate != 0.0) {
-        (void)snprintf(info->name, sizeof info->name, "%s (force gate %g)", models[d->model].name, d->force_gate);
+        (void)knurl_format(info->name, sizeof info->name, "%s (force gate %g)", models[d->model].name, d->force_gate);
     }
     knurl_device_info_sphere(info, models[d->model].radius);
     info->resolution = 0.00001; /* data sheet of the Inverse3 */

@@ -1,6 +1,7 @@
 /* Converts between lines of text and reports. Read port_read() and port_write() first. SPDX-License-Identifier: MIT */
 #include "device/rawhid/serial.h"
 
+#include "base/format.h"
 #include "base/system.h"
 #include "device/rawhid/report.h"
 
@@ -159,10 +160,10 @@ static int say_hello(serial_port *p, char *why, size_t why_size) {
             return 0;
         }
     }
-    (void)snprintf(why, why_size,
-                   "no line such as [3,0,0,0,0,0,0,0] comes back within %g s; load the makers' firmware "
-                   "woody_teensy_mini",
-                   1e-3 * HELLO_TRIES * HELLO_MS);
+    (void)knurl_format(why, why_size,
+                       "no line such as [3,0,0,0,0,0,0,0] comes back within %g s; load the makers' firmware "
+                       "woody_teensy_mini",
+                       1e-3 * HELLO_TRIES * HELLO_MS);
     return 0;
 }
 
