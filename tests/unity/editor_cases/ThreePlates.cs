@@ -3,6 +3,7 @@ using Knurl.Samples;
 using Knurl.Tests;
 using NUnit.Framework;
 using UnityEngine;
+using UnityEngine.Rendering;
 
 namespace Knurl.Cases
 {
@@ -14,6 +15,7 @@ namespace Knurl.Cases
         public void TearDown()
         {
             Input.MouseButtons[0] = false;
+            GraphicsSettings.currentRenderPipeline = null;
             Player.LeaveScene();
         }
 
@@ -36,6 +38,50 @@ namespace Knurl.Cases
             Assert.IsTrue(Player.Until(() => demo.Haptic.Force.y > 0.1f));
             Input.MouseButtons[0] = false;
             Assert.IsTrue(Player.Until(() => !demo.Haptic.InContact));
+        }
+
+        sealed class Pipeline : RenderPipelineAsset
+        {
+            internal readonly Shader Lit = Shader.Find("Universal Render Pipeline/Lit");
+            public override Shader defaultShader { get { return Lit; } }
+        }
+
+        [Test]
+        public void A_plate_shows_its_ridges_with_the_shader_of_the_projects_pipeline()
+        {
+            var pipeline = ScriptableObject.CreateInstance<Pipeline>();
+            GraphicsSettings.currentRenderPipeline = pipeline;
+            new GameObject("Demo").AddComponent<KnurlDemo>();
+            Player.Frames(2);
+            KnurlPaint[] painted = Object.FindObjectsOfType<KnurlPaint>();
+            Assert.AreEqual(5, painted.Length);
+            foreach (KnurlPaint each in painted)
+            {
+                Material material = each.GetComponent<Renderer>().sharedMaterial;
+                Assert.AreSame(pipeline.Lit, material.shader, each.name);
+                Assert.AreEqual(each.Color, material.color, each.name);
+                Assert.AreEqual(each.GetComponent<KnurlSurface>() != null, material.mainTexture != null, each.name);
+            }
+        }
+
+        [Test]
+        public void Drawn_ridges_are_as_far_apart_as_felt_ones()
+        {
+            new GameObject("Demo").AddComponent<KnurlDemo>();
+            Player.Frames(2);
+            foreach (KnurlSurface surface in Object.FindObjectsOfType<KnurlSurface>())
+            {
+                if (surface.name == "Ridges of 1 mm")
+                {
+                    Color32[] pixels = ((Texture2D)surface.GetComponent<Renderer>().sharedMaterial.mainTexture).Pixels;
+                    int edges = 0;
+                    for (int i = 1; i < 512; i++)
+                    {
+                        edges += pixels[i].r != pixels[i - 1].r ? 1 : 0;
+                    }
+                    Assert.AreEqual(2 * 48, edges); // 48 mm: 48 ridges with two edges each
+                }
+            }
         }
 
         [Test]

@@ -13,6 +13,12 @@ ASSEMBLIES = {  # the folder, the assembly, what it may refer to
     "Tests/Runtime": ("Knurl.Haptics.Tests", ["Knurl.Haptics"]),
     "Tests/Editor": ("Knurl.Haptics.Editor.Tests", ["Knurl.Haptics", "Knurl.Haptics.Editor"]),
 }
+MODULES = {  # of Unity's own that a project may have switched off: a type that only that module has
+    "audio": "AudioSource",
+    "imgui": "GUI",
+    "jsonserialize": "JsonUtility",
+    "physics": "Rigidbody",
+}
 RUNNERS = {"UnityEngine.TestRunner", "UnityEditor.TestRunner"}
 
 
@@ -35,6 +41,11 @@ class Manifest(unittest.TestCase):
     def test_has_the_version_of_the_sdk(self):
         self.assertEqual(self.manifest["version"], package.version())
         self.assertIn(f"\n## [{package.version()}]", package.read(package.PACKAGE, "CHANGELOG.md"))
+
+    def test_depends_on_the_modules_whose_types_are_used(self):
+        text = "".join(package.read(package.PACKAGE, path) for path in scripts())
+        used = {f"com.unity.modules.{name}" for name, word in MODULES.items() if re.search(rf"\b{word}\b", text)}
+        self.assertEqual(set(self.manifest["dependencies"]), used)
 
     def test_says_what_people_read(self):
         for key in ("displayName", "description"):

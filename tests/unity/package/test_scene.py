@@ -69,13 +69,29 @@ class Scene(unittest.TestCase):
             fields = {field for field in fields if not field.startswith("m_")}
             self.assertEqual(fields, declared, path)
             seen.add(os.path.basename(name))
-        self.assertEqual(seen, {"KnurlSurface", "KnurlDevice", "KnurlMouse", "KnurlCursor"})
+        self.assertEqual(seen, {"KnurlSurface", "KnurlDevice", "KnurlMouse", "KnurlCursor", "KnurlPaint", "KnurlReadout"})
 
     def test_it_can_be_seen_and_felt(self):
         kinds = [kind for kind, _, _ in self.documents]
         self.assertEqual((kinds.count(20), kinds.count(108)), (1, 1))  # a camera and a light
         self.assertIn("device: mouse", package.read(SCENE))
         self.assertIn("autostart: 1", package.read(SCENE))
+
+    def test_whatever_is_drawn_is_painted_and_the_device_is_heard_and_plotted(self):
+        """The built-in material is magenta in URP, and shows no ridge."""
+        drawn, painted, plotted = set(), set(), 0
+        for kind, _, text in self.documents:
+            owner = re.search(r"m_GameObject: \{fileID: (\d+)\}", text)
+            script = re.search(r"m_Script: \{fileID: \d+, guid: (\w+)", text)
+            name = os.path.basename(self.paths[script.group(1)]) if script else ""
+            if kind == 23:
+                drawn.add(owner.group(1))
+            elif name == "KnurlPaint.cs":
+                painted.add(owner.group(1))
+            plotted += name == "KnurlReadout.cs"
+        self.assertEqual(len(drawn), 5)
+        self.assertEqual((painted, plotted), (drawn, 1))
+        self.assertIn("sound: 1", package.read(SCENE))
 
 
 if __name__ == "__main__":

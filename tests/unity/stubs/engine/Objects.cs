@@ -410,6 +410,20 @@ namespace UnityEngine
         public Rendering.ShaderPropertyType GetPropertyType(int propertyIndex) { return Properties[propertyIndex]; }
     }
 
+    namespace Rendering
+    {
+        /// A pipeline names its shader; the built-in one is null.
+        public class RenderPipelineAsset : ScriptableObject
+        {
+            public virtual Shader defaultShader { get { return null; } }
+        }
+
+        public static class GraphicsSettings
+        {
+            public static RenderPipelineAsset currentRenderPipeline { get; set; } // a test's; read-only in Unity
+        }
+    }
+
     public class Texture : Object
     {
         public int width { get; protected set; }

@@ -18,8 +18,6 @@ namespace Knurl.Samples
         static readonly Vector3 Eye = new Vector3(0f, 0.17f, -0.13f);
 
         KnurlDevice haptic;
-        KnurlPlot plot;
-        string fault = "";
 
         /// <summary>The device that feels the plates.</summary>
         public KnurlDevice Haptic
@@ -31,23 +29,13 @@ namespace Knurl.Samples
         {
             KnurlPlates.Make(transform);
             PlaceCamera();
-            plot = new KnurlPlot();
             haptic = MakeDevice();
             MakeBall("HIP", new Color(1f, 0.62f, 0.2f), Ball, true);
             MakeBall("Proxy", new Color(0.2f, 0.9f, 1f), 1.2f * Ball, false);
-            haptic.fault.AddListener((code, text) => fault = code < 32 ? text : ""); // from 32 on it is well again
             if (!haptic.StartDevice() && device != "mouse") // it said why
             {
                 haptic.Device = "mouse";
                 haptic.StartDevice();
-            }
-        }
-
-        void OnDestroy()
-        {
-            if (plot != null)
-            {
-                plot.Release();
             }
         }
 
@@ -61,7 +49,9 @@ namespace Knurl.Samples
             made.Device = device;
             made.Stroke = stroke;
             made.Autostart = false;
-            holder.AddComponent<KnurlMouse>(); // counts where the device is the mouse
+            made.Sound = true;
+            holder.AddComponent<KnurlMouse>(); // used if the device is the mouse
+            holder.AddComponent<KnurlReadout>();
             holder.SetActive(true);
             return made;
         }
@@ -84,27 +74,10 @@ namespace Knurl.Samples
             made.name = title;
             made.transform.SetParent(transform, false);
             made.transform.localScale = diameter * Vector3.one;
-            made.GetComponent<Renderer>().material.color = color;
+            made.AddComponent<KnurlPaint>().Color = color;
             var cursor = made.AddComponent<KnurlCursor>();
             cursor.Device = haptic;
             cursor.ShowsHip = showsHip;
-        }
-
-        void Update()
-        {
-            plot.Draw(haptic);
-        }
-
-        void OnGUI()
-        {
-            GUI.Label(new Rect(20f, 16f, 600f, 24f), haptic.Running
-                ? haptic.DeviceName + (haptic.Device == "mouse" ? "   press: left button, deeper: wheel" : "")
-                : "no device is running: the console says why");
-            GUI.Label(new Rect(20f, 40f, 600f, 24f), haptic.Touched == null ? "nothing is touched"
-                : haptic.Touched.name + "   " + haptic.TemporalFrequency.ToString("F0") + " Hz   "
-                + (1e3f * haptic.Height).ToString("F2") + " mm   " + haptic.Force.magnitude.ToString("F2") + " N");
-            GUI.Label(new Rect(20f, 64f, 600f, 24f), fault);
-            plot.Show(new Rect(20f, Screen.height - KnurlPlot.Height - 20f, KnurlPlot.Width, KnurlPlot.Height));
         }
     }
 }

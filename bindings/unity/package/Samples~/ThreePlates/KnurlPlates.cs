@@ -8,7 +8,6 @@ namespace Knurl.Samples
     {
         internal const float Side = 0.048f; // m
         const float Pitch = 0.054f; // m from plate to plate: together a Touch's 160 mm
-        const int Pixels = 512;
 
         internal static void Make(Transform parent)
         {
@@ -30,31 +29,10 @@ namespace Knurl.Samples
             plate.transform.localPosition = (place - 1) * Pitch * Vector3.right;
             plate.transform.localRotation = Quaternion.Euler(90f, 0f, 0f);
             plate.transform.localScale = Side * Vector3.one;
-            plate.GetComponent<Renderer>().material.mainTexture = Draw(frequency, orientation);
             var surface = plate.AddComponent<KnurlSurface>();
             surface.Axis = Vector3.right; // along the quad's u
             surface.Grating = grating;
-        }
-
-        /// <summary>Where ridges are high it is light.</summary>
-        static Texture2D Draw(Vector2 frequency, float orientation)
-        {
-            var texture = new Texture2D(Pixels, Pixels, TextureFormat.RGBA32, true);
-            var pixels = new Color32[Pixels * Pixels];
-            for (int i = 0; i < pixels.Length; i++)
-            {
-                float u = Side * ((i % Pixels) / (float)Pixels - 0.5f); // m from the middle
-                float v = Side * ((i / Pixels) / (float)Pixels - 0.5f);
-                float x = Mathf.Cos(orientation) * u + Mathf.Sin(orientation) * v;
-                float y = Mathf.Cos(orientation) * v - Mathf.Sin(orientation) * u;
-                float waves = Mathf.Cos(2f * Mathf.PI * frequency.x * x) * Mathf.Cos(2f * Mathf.PI * frequency.y * y);
-                byte light = (byte)(waves >= 0f ? 225 : 120);
-                pixels[i] = new Color32(light, light, light, 255);
-            }
-            texture.anisoLevel = 8;
-            texture.SetPixels32(pixels);
-            texture.Apply();
-            return texture;
+            plate.AddComponent<KnurlPaint>();
         }
     }
 }
