@@ -304,6 +304,46 @@ TEST(triangles_without_area_are_dropped_and_counted) {
     assert_int_equal(heap.bytes, 0);
 }
 
+/* A triangle of 0.1 m and of so many millionths of it in height, whichever of its edges is the longest. */
+TEST(triangles_thinner_than_a_millionth_of_their_longest_edge_are_dropped) {
+    for (int way = 0; way < 3; way++) {
+        for (int is_felt = 0; is_felt < 2; is_felt++) {
+            const double corners[3][2] = {{0.0, 0.0}, {0.1, 0.0}, {0.05, is_felt ? 1.1e-7 : 0.9e-7}};
+            shape s = shape_new(6, 6, 0);
+            for (uint32_t v = 0; v < 6; v++) {
+                const double *at = corners[(v + (uint32_t)way) % 3];
+                shape_set(&s, v, at[0], at[1] * (v < 3 ? 1.0 : 1e5), 0.0);
+                s.indices[v] = v;
+            }
+            probe p = probe_shape(&s);
+            assert_int_equal(p.mesh->dropped, !is_felt);
+            probe_free(&p);
+        }
+    }
+}
+
+/* A corner of a sheet that many small triangles lie over is found although nothing else is crowded. */
+TEST(visits_are_exceeded_where_triangles_crowd) {
+    static const double half[2] = {0.05, 0.05};
+    for (int is_crowded = 0; is_crowded < 2; is_crowded++) {
+        shape sheet = shape_sheet(10, 10, half, NULL);
+        shape crowd = shape_soup(5, 300, 0.9);
+        for (uint32_t v = 0; v < crowd.vertex_count; v++) {
+            for (size_t axis = 0; axis < 3; axis++) {
+                float *at = &crowd.positions[3 * (size_t)v + axis];
+                *at = *at * 0.0005f + (axis < 2 ? 0.045f : 0.0f);
+            }
+        }
+        shape both = is_crowded ? shape_join(&sheet, &crowd) : sheet;
+        if (!is_crowded) {
+            shape_free(&crowd);
+        }
+        probe p = probe_shape(&both);
+        assert_int_equal(knurl_mesh_exceeds_visits(p.mesh, 0.001, 1000), is_crowded);
+        probe_free(&p);
+    }
+}
+
 /* A sheet, its duplicate turned in the list by one corner, and its back, each with vertices of its own. */
 TEST(twins_are_dropped_and_reversed_ones_make_it_double_sided) {
     const double half[2] = {0.02, 0.015};

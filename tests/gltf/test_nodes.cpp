@@ -101,6 +101,7 @@ TEST(bad_transforms_name_the_node) {
     fails(R"("translation":[0,1.7e19,0])",
           {"node 'N' (0): its transform puts it at 1.7e+19 m: expected within 1e+09 m"});
     fails(R"("translation":[0,-1e300,0])", {"node 'N' (0): its transform puts it at -1e+300 m"});
+    fails(R"("translation":[2e9,0,0])", {"node 'N' (0): its transform puts it at 2e+09 m"});
     fails(R"("matrix":[1,0,0])", {"node 'N' (0): matrix: expected an array of 16 numbers, found an array of 3"});
     fails(R"("matrix":[1,0,0,0, 0,1,0,0, 0,0,1,0.5, 0,0,0,1])", {"node 'N' (0): matrix: expected 0, 0, 0, 1"});
     fails(R"("matrix":[1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1],"scale":[1,1,1])", {"node 'N' (0): scale", "found both"});

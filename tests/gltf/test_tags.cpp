@@ -184,6 +184,14 @@ TEST(the_axis_turns_the_grating) {
 }
 
 TEST(long_and_odd_names_keep_the_message_readable) {
+    for (const char *start : {"", "x", "xx"}) { // 64 bytes end after, in or before a character of three
+        File odd = quad();
+        odd.materials = R"({"name":")" + std::string(start);
+        for (int i = 0; i < 40; ++i)
+            odd.materials += "\xe2\x82\xac";
+        odd.materials += R"(","extras":{"knurl_stiffness":-1}})";
+        assert_fails(odd.glb(), KNURL_ERROR_FORMAT, {"\xe2\x82\xac...' (0): knurl_stiffness: expected"});
+    }
     File file = quad();
     file.materials = R"({"name":"a\nb)" + std::string(5000, 'x') + R"(","extras":{"knurl_stiffness":-1}})";
     assert_fails(file.glb(), KNURL_ERROR_FORMAT,

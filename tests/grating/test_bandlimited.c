@@ -193,6 +193,23 @@ TEST(on_a_grid_the_phase_moves_on_by_the_cycles_of_the_axis_that_crosses_the_mos
     }
 }
 
+/* From +-x to +-y in the middle of a cycle: played on as on a line that never turned. */
+TEST(where_the_other_axis_takes_over_the_wave_goes_on) {
+    const double step = 0.03; /* cycles a tick */
+    for (int signs = 0; signs < 4; signs++) {
+        const double x = signs & 1 ? -1.0 : 1.0, y = signs & 2 ? -1.0 : 1.0;
+        band_scan grid = band_on(FS, FS, RATE, 0.0), line = band_on(FS, 0.0, RATE, 0.0);
+        double at[2] = {0.0, 0.0};
+        for (int k = 0; k < 60; k++) {
+            const double v[2] = {k < 25 ? x * step * RATE / FS : 0.0, k < 25 ? 0.0 : y * step * RATE / FS};
+            at[0] += v[0] / RATE;
+            at[1] += v[1] / RATE;
+            const double expected = band_x(&line, (k + 1) * step / FS, step * RATE / FS);
+            CHECK_CLOSE(band_step(&grid, at, v[0], v[1]), expected, 1e-9);
+        }
+    }
+}
+
 TEST(events_count_the_ridges_begun) {
     band_scan s = band_on(FS, 0.0, RATE, 0.0);
     for (int k = 0; k < 1000; k++) {

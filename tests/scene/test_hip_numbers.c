@@ -2,6 +2,8 @@
  * motors' limit holds. SPDX-License-Identifier: MIT */
 #include "support/scenes.h"
 
+#include "hip/snapshot.h"
+
 enum { ZERO = 1, ENDLESS = 2 };
 
 static const struct number {
@@ -105,5 +107,32 @@ TEST(at_all_ends_of_the_ranges_the_motors_are_protected) {
         if (heat_time < 0.01 && max_force <= 1000.0) {
             CHECK_CLOSE(force / fmin(max_force, holds), 1.0, 0.01);
         }
+    }
+}
+
+TEST(each_flag_of_a_tick_has_a_counter_of_its_own) {
+    static const struct {
+        uint32_t flag;
+        size_t at;
+    } counters[] = {
+#define COUNTER(flag, field) {KNURL_TICK_##flag, offsetof(knurl_hip_counts, field)}
+        COUNTER(FORCE_LIMIT, force_limit_ticks),
+        COUNTER(ABOVE_NYQUIST, above_nyquist_ticks),
+        COUNTER(NOT_FINITE, non_finite_ticks),
+        COUNTER(ENTRY, entry_ticks),
+        COUNTER(SLEW, slew_ticks),
+        COUNTER(HEAT, heat_ticks),
+        COUNTER(PASSIVITY, passivity_ticks),
+        COUNTER(SQUEEZED, squeezed_ticks),
+        COUNTER(VISIT_LIMIT, visit_limit_ticks),
+    };
+    for (size_t i = 0; i < COUNT_OF(counters); i++) {
+        static const uint64_t one = 1;
+        knurl_hip_counts counts, expected;
+        memset(&counts, 0, sizeof counts);
+        memset(&expected, 0, sizeof expected);
+        memcpy((char *)&expected + counters[i].at, &one, sizeof one);
+        knurl_counts_add_flags(&counts, counters[i].flag);
+        assert_memory_equal(&counts, &expected, sizeof counts);
     }
 }
