@@ -346,6 +346,28 @@ TEST(reset_makes_the_next_position_a_first_one) {
     }
 }
 
+/* Whatever the ring holds and wherever it stands. */
+TEST(a_reset_estimator_is_a_fresh_one_from_any_place_of_its_ring) {
+    for (int before = 1; before < 70; before++) {
+        uint64_t seed = (uint64_t)before;
+        knurl_velocity used = make_velocity(KNURL_VELOCITY_FOAW, QUANTUM, 1000.0);
+        knurl_velocity fresh = make_velocity(KNURL_VELOCITY_FOAW, QUANTUM, 1000.0);
+        for (int k = 0; k < before + 70; k++) {
+            const double x = k < before ? 0.0 : k * QUANTUM * (1.0 + random_between(&seed, 0.0, 0.1));
+            const double position[3] = {x, -x, 0.0};
+            double out[3], expected[3];
+            if (k == before) {
+                knurl_velocity_reset(&used);
+            }
+            knurl_velocity_update(&used, position, out);
+            if (k >= before) {
+                knurl_velocity_update(&fresh, position, expected);
+                assert_memory_equal(out, expected, sizeof out);
+            }
+        }
+    }
+}
+
 TEST(auto_is_foaw_where_the_resolution_is_known) {
     knurl_velocity known = make_velocity(KNURL_VELOCITY_AUTO, QUANTUM, 1000.0);
     knurl_velocity exact = make_velocity(KNURL_VELOCITY_AUTO, 0.0, 1000.0);

@@ -201,6 +201,28 @@ TEST(place_and_turn_on_the_way_have_their_closed_forms) {
 }
 
 /* Arrived, it stands exactly where a surface put there from the start does: the same numbers, bit for bit. */
+/* About any axis, exactly or nearly half a turn, in whole or in half: the normal stays in the plane of the turn. */
+TEST(half_a_turn_goes_about_its_own_axis) {
+    for (int axis = 0; axis < 3; axis++) {
+        pose turned = at_height(0.1, 0.2, 0.3);
+        surface_parts parts = wide_plane();
+        SCOPED_SCENE *scene = scene_of(&parts);
+        const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
+        double position[3], rotation[4], along[3] = {0.0, 0.0, 0.0}, moved[3];
+        turned.quaternion[3] = 0.0;
+        turned.quaternion[axis] = 1.0;
+        along[axis] = 1.0;
+        assert_int_equal(knurl_scene_set_transform(scene, id, turned.position, turned.quaternion, 0.1), KNURL_OK);
+        for (int tick = 1; tick <= 100; tick++) {
+            (void)stand_at(scene, 0.0, 0.0, 2.0);
+            assert_int_equal(knurl_scene_get_transform(scene, id, position, rotation), KNURL_OK);
+            turn(rotation, along, moved);
+            CHECK_CLOSE(moved[axis], 1.0, 1e-9);
+            CHECK_CLOSE(fabs(rotation[axis]), sin(1.5707963267948966 * tick / 100.0), 1e-6);
+        }
+    }
+}
+
 TEST(arrival_is_exactly_at_the_target) {
     uint64_t seed = 31;
     for (int run = 0; run < 20; run++) {

@@ -137,6 +137,29 @@ static void swing(int kind, uint32_t full_model, uint64_t *seed) {
     }
 }
 
+/* A box that comes along each axis to a HIP that has long stood still there. */
+TEST(what_comes_from_any_side_to_a_hip_at_rest_is_felt) {
+    for (int way = 0; way < 6; way++) {
+        const double sign = way % 2 ? -1.0 : 1.0, half[3] = {0.05, 0.05, 0.05}, q[4] = {0.0, 0.0, 0.0, 1.0};
+        SCOPED_SHAPE box = shape_box(half, 0);
+        surface_parts parts = surface_mesh(&box);
+        parts.desc.axis[0] = 1.0;
+        SCOPED_SCENE *scene = scene_of(&parts);
+        double at[3] = {0.01, 0.01, 0.01}, target[3] = {0.0, 0.0, 0.0};
+        at[way / 2] = 0.3 * sign;
+        target[way / 2] = 0.251 * sign; /* 1 mm of the box is over the HIP */
+        for (int tick = 0; tick < 20; tick++) {
+            assert_true(tick_at(scene, at[0], at[1], at[2]).surface == 0);
+        }
+        assert_int_equal(knurl_scene_set_transform(scene, knurl_scene_get_surface(scene, 0), target, q, 0.5), KNURL_OK);
+        for (int tick = 0; tick < 499; tick++) {
+            (void)tick_at(scene, at[0], at[1], at[2]);
+        }
+        const knurl_tick_output out = tick_at(scene, at[0], at[1], at[2]);
+        CHECK_CLOSE(out.force[way / 2], 400.0 * 0.001 * sign, 0.01);
+    }
+}
+
 TEST(no_paddle_that_swings_round_tunnels) {
     uint64_t seed = 22;
     for (int run = 0; run < 300; run++) {

@@ -343,6 +343,19 @@ TEST(a_ray_ends_where_it_is_told_to_and_meets_a_surface_where_it_is_now) {
     assert_true(found.surface == 0 && found.distance == 0.0);
 }
 
+TEST(what_is_exactly_at_the_radius_is_found) {
+    static const double above[3] = {0.0, 0.0, 0.25};
+    surface_parts parts = surface_plane();
+    SCOPED_SCENE *scene = scene_of(&parts);
+    knurl_surface_point found;
+    knurl_surface_point_init(&found, sizeof found);
+    assert_int_equal(knurl_scene_find_closest(scene, above, 0.25, &found), KNURL_OK);
+    assert_true(found.surface == knurl_scene_get_surface(scene, 0));
+    CHECK_SAME(found.distance, 0.25);
+    assert_int_equal(knurl_scene_find_closest(scene, above, 0.2499, &found), KNURL_OK);
+    assert_true(found.surface == 0);
+}
+
 TEST(a_ray_is_cast_with_numbers_in_range) {
     static const double nowhere[3] = {0.0, (double)NAN, 0.0}, beyond[3] = {0.0, 0.0, -1e31}, here[3] = {0.0, 0.0, 0.1};
     surface_parts parts = surface_plane();

@@ -76,6 +76,25 @@ TEST(a_shared_shape_costs_its_surface_and_no_shape) {
     assert_true(told <= knurl_scene_get_bytes(scene));
 }
 
+TEST(a_plane_is_double_sided_for_those_that_ask_for_it) {
+    for (int both = 0; both < 2; both++) {
+        surface_parts parts = surface_plane();
+        SCOPED_SCENE *scene = empty_scene(1);
+        configure_plainly(scene, 0);
+        const knurl_surface_id first = add_surface(scene, &parts);
+        knurl_surface_desc second = *surface_ready(&parts);
+        second.plane = NULL;
+        second.shape_of = first;
+        second.double_sided = (uint32_t)both;
+        second.position[0] = 1.0;
+        assert_int_equal(knurl_scene_add_surface(scene, &second, NULL), KNURL_OK);
+        assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
+        (void)tick_at(scene, 1.0, 0.0, -0.01);
+        (void)tick_at(scene, 1.0, 0.0, -0.001);
+        CHECK_CLOSE(tick_at(scene, 1.0, 0.0, 0.001).force[2], both ? -0.4 : 0.0, 1e-9);
+    }
+}
+
 TEST(what_shape_of_cannot_name_is_refused) {
     SCOPED_SHAPE s = shape_sheet(4, 4, (const double[2]){0.1, 0.1}, wave);
     surface_parts parts = surface_mesh(&s);
