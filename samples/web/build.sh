@@ -16,4 +16,5 @@ cp "$here"/*.js "$work/knurl.mjs" "$work/page/"
 "$work/page/node_modules/@esbuild/linux-x64/bin/esbuild" "$work"/page/{main,view,worker}.js --bundle --minify --format=esm \
     --external:./view.js --legal-comments=eof --outdir="$out" --log-level=warning
 cp "$here"/{index.html,start.js,style.css} "$work/knurl.wasm" "$out/"
+cat "$here"/../../{LICENSE,bindings/godot/addons/knurl/THIRD_PARTY.md} >"$out/licences.txt" # of what knurl.wasm holds
 cp "$here"/../../assets/{plate_1d,grid_2d,knurled_handle}.glb "$out/assets/"

@@ -9,6 +9,7 @@ import sys
 import threading
 import time
 import unittest
+import unittest.mock
 
 import numpy as np
 
@@ -122,6 +123,29 @@ with multiprocessing.get_context("fork").Pool(2) as pool:
         self.assertEqual([loop.closed for loop in loops], [True, True, False])
         with self.assertRaisesRegex(knurl.KnurlError, "another loop was made with its device or HIP"):
             loops[0].pause()
+        loops[-1].close()
+
+    def test_a_device_that_is_opened_again_is_closed_first(self):
+        class Exclusive:
+            """The library, whose fake device can be opened once at a time, as a device on a wire can."""
+
+            def __getattr__(self, name):
+                return getattr(knurl.lib, name)
+
+            def knurl_device_open(self, uri, device):
+                if any(not owner.closed for owner in devices):
+                    return knurl.lib.KNURL_ERROR_SYSTEM
+                return knurl.lib.knurl_device_open(uri, device)
+
+        scene, devices, loops = ready(), [], []
+        with unittest.mock.patch.object(knurl.device, "lib", Exclusive()):
+            for _ in range(3):
+                devices.append(knurl.Device("fake"))
+                loops.append(knurl.Loop(scene, devices[-1]))
+                loops[-1].start()
+            with self.assertRaises(knurl.KnurlError):
+                knurl.Device("fake:") # another URI is another device
+        self.assertEqual([device.closed for device in devices], [True, True, False])
         loops[-1].close()
 
     def test_what_is_closed_says_so(self):

@@ -48,7 +48,8 @@ def devices() -> List[Listing]:
 
 
 class Device(Owner):
-    """A device by its URI: "fake", "touch", "falcon", "rawhid" ...; see knurl_device_open()."""
+    """A device by its URI: "fake", "touch", "falcon", "rawhid" ...; see knurl_device_open(). If it cannot be opened while
+    this program has it open by the same URI, the earlier one and its loop are closed."""
 
     _order = 1
     _functions: Optional[callbacks.Functions] = None
@@ -56,7 +57,14 @@ class Device(Owner):
     def __init__(self, uri: str = "fake") -> None:
         lib.knurl_device_zero_on_exit(0)
         device = ffi.new("knurl_device **")
-        check(lib.knurl_device_open(uri.encode(), device))
+        result = lib.knurl_device_open(uri.encode(), device)
+        if result == lib.KNURL_ERROR_SYSTEM: # as when a notebook's cell is run again, which has it open
+            for earlier in [other for other in open_objects(Device) if other._uri == uri]:
+                for loop in [loop for loop in open_objects(Loop) if loop._device is earlier]:
+                    loop.close() # it keeps a closed device
+                earlier.close()
+                result = lib.knurl_device_open(uri.encode(), device)
+        check(result)
         self._own(device[0], lib.knurl_device_close)
         self._uri = uri
 
