@@ -32,8 +32,10 @@ int study_contender_at(size_t index, study_contender *contender) {
         if (index < count) {
             contender->method = m;
             contender->update_rate_hz = rates[index / variants];
-            contender->velocity = (int)(index % variants / positions);
             contender->resolution = index % positions == 1 ? RESOLUTION : 0.0;
+            contender->velocity = m->uses_velocity              ? (int)(index % variants / positions)
+                                  : contender->resolution > 0.0 ? STUDY_FOAW /* S1: for the tracked position alone */
+                                                                : STUDY_IDEAL;
             contender->ridge = RIDGE;
             return 1;
         }
@@ -100,13 +102,16 @@ double study_rendering_tick(study_rendering *r) {
 
 double study_rendering_tick_at(study_rendering *r, double x, double speed) {
     const double quantum = r->contender.resolution;
-    const double position[3] = {quantum > 0.0 ? floor(x / quantum + 0.5) * quantum : x, 0.0, 0.0};
+    double position[3] = {quantum > 0.0 ? floor(x / quantum + 0.5) * quantum : x, 0.0, 0.0};
     double velocity[3] = {speed, 0.0, 0.0};
     knurl_grating_output output;
-    if (r->contender.method->uses_velocity && r->contender.velocity == STUDY_LOWPASS) {
+    if (r->contender.velocity == STUDY_LOWPASS) {
         velocity[0] = study_low_pass_tick(&r->low_pass, LOW_PASS_HZ, r->contender.update_rate_hz, position[0]);
-    } else if (r->contender.method->uses_velocity && r->contender.velocity != STUDY_IDEAL) {
+    } else if (r->contender.velocity != STUDY_IDEAL) {
         knurl_velocity_update(&r->estimator, position, velocity);
+    }
+    if (quantum > 0.0) { /* as a scene does */
+        knurl_velocity_track(&r->estimator, position, velocity, position);
     }
     knurl_grating_step(&r->grating, &r->state, position, velocity, &output);
     r->cycles_played += cycles_of(r, &output);

@@ -15,7 +15,8 @@ typedef struct study_method {
     const char *name;
     int32_t id;        /**< KNURL_WAVE_T1 ... or KNURL_METHOD_S1 ... */
     int spatial;       /**< 1: scans a grating; 0: a temporal signal */
-    int uses_velocity; /**< 1: there is one contender for each velocity estimate */
+    int uses_velocity; /**< 1: there is one contender for each velocity estimate; 0: FOAW moves on what comes in counts
+                        */
 } study_method;
 
 /** All methods, ended by a null name. */

@@ -1,5 +1,5 @@
-/* Study `tracking`: where bandlimited takes a position from that comes in counts. Moved on by FOAW's velocity and kept
- * within half a count of what the encoder says, as it is built, against a second-order observer within the same bound.
+/* Study `tracking`: what moves a position on that comes in counts, always within half a count of the measured one:
+ * FOAW's velocity, its mean over some time (20 ms is built, knurl_velocity_track()), or a second-order observer.
  * SPDX-License-Identifier: MIT */
 #include "say.h"
 #include "steady.h"
@@ -21,60 +21,82 @@
 #define TREMORS     40
 #define TREMOR_S    2.0
 
-enum { VELOCITY, OBSERVER, TRACKERS };
+/* mean: s, of the velocity; a count in `ticks` is the most that it is off a new one */
+typedef struct way {
+    const char *name;
+    enum { VELOCITY, MEAN, BUILT, OBSERVER } how;
+    double mean, ticks;
+} way;
 
-static const char *const names[TRACKERS] = {"velocity", "observer"};
-static const double steady[] = {25.3,  31.7,  40.9,  60.7,  80.3,  110.9, 140.3, 180.7, 220.9, 270.3, 300.7,
-                                333.3, 350.1, 380.7, 400.3, 420.3, 440.1, 450.9, 462.3, 470.3, 480.9};
+static const way ways[] = {{"velocity", VELOCITY, 0.0, 0.0},
+                           {"mean of 10 ms", MEAN, 0.01, 10.0},
+                           {"mean of 20 ms: built", BUILT, KNURL_TRACK_S, 10.0},
+                           {"the same but off by a count in 15 ms at most", MEAN, KNURL_TRACK_S, 15.0},
+                           {"mean of 30 ms", MEAN, 0.03, 10.0},
+                           {"mean of 100 ms", MEAN, 0.1, 10.0},
+                           {"observer", OBSERVER, 0.0, 0.0}};
+/* Hz; those of the paper's range, and about a count a tick on either grating */
+static const double steady[] = {25.3,  31.7,  40.9,  52.6,  54.3,  55.2,  56.1,  60.7,  80.3,
+                                108.4, 110.7, 110.9, 140.3, 180.7, 220.9, 270.3, 300.7, 333.3,
+                                350.1, 380.7, 400.3, 420.3, 437.3, 439.7, 450.9, 462.3};
 static const double ridges[] = {1e-3, 0.5e-3};
-static const double tremors[] = {0.01e-3, 0.02e-3};
+static const double tremors[] = {0.02e-3, 0.05e-3};
 #define OF(array) (sizeof(array) / sizeof *(array))
 
 typedef struct tracker {
-    int kind;
-    double place, speed; /* of the observer */
+    const way *kind;
+    double place, speed;
     knurl_velocity estimator;
     knurl_grating grating;
     knurl_grating_state state;
 } tracker;
 
-static int start(tracker *t, int kind, double ridge) {
+static int start(tracker *t, const way *kind, double ridge) {
     const tracker fresh = {.kind = kind, .place = NAN};
     *t = fresh;
     t->grating.spatial_frequency[0] = 1.0 / ridge;
     t->grating.amplitude = 1.0;
     t->grating.update_rate_hz = RATE;
     t->grating.method = KNURL_METHOD_BANDLIMITED;
-    t->grating.resolution = kind == OBSERVER ? 0.0 : COUNT; /* what it gets from the observer is taken as it is */
     return !knurl_grating_check(&t->grating) &&
            !knurl_velocity_prepare(KNURL_VELOCITY_FOAW, COUNT, RATE, &t->estimator);
 }
 
-static void observe(tracker *t, double measured) {
+/* Moves the place on. velocity: FOAW's. */
+static void follow(tracker *t, double measured, double velocity) {
     const double w = 2.0 * PI * OBSERVER_HZ / RATE;
+    const double off = t->kind->how == MEAN ? COUNT * RATE / t->kind->ticks : 0.0;
+    if (t->kind->how != OBSERVER) {
+        t->speed += t->kind->how == MEAN ? (velocity - t->speed) / (t->kind->mean * RATE) : 0.0;
+        t->speed = fmin(fmax(t->speed, velocity - off), velocity + off);
+    }
     t->place = isnan(t->place) ? measured : t->place + t->speed / RATE;
-    const double error = measured - t->place;
-    t->place += 2.0 * DAMPING * w * error;
-    t->speed += w * w * error * RATE;
+    if (t->kind->how == OBSERVER) {
+        const double error = measured - t->place;
+        t->place += 2.0 * DAMPING * w * error;
+        t->speed += w * w * error * RATE;
+    }
     t->place = fmin(fmax(t->place, measured - 0.5 * COUNT), measured + 0.5 * COUNT);
 }
 
+/* Returns where it takes x to be. */
 static double tick(tracker *t, double x, knurl_grating_output *out) {
     double position[3] = {floor(x / COUNT + 0.5) * COUNT, 0.0, 0.0};
     double velocity[3] = {0.0, 0.0, 0.0};
-    if (t->kind == OBSERVER) {
-        observe(t, position[0]);
-        position[0] = t->place;
-        velocity[0] = t->speed;
+    knurl_velocity_update(&t->estimator, position, velocity);
+    if (t->kind->how == BUILT) {
+        knurl_velocity_track(&t->estimator, position, velocity, position);
     } else {
-        knurl_velocity_update(&t->estimator, position, velocity);
+        follow(t, position[0], velocity[0]);
+        position[0] = t->place;
+        velocity[0] = t->kind->how == OBSERVER ? t->speed : velocity[0];
     }
     knurl_grating_step(&t->grating, &t->state, position, velocity, out);
-    return out->height;
+    return position[0];
 }
 
 /* The worst shares over the speeds: false tones of all, felt ones to 440 Hz. */
-static int measure_steady(int kind, double ridge, double worst[2]) {
+static int measure_steady(const way *kind, double ridge, double worst[2]) {
     static double heights[TICKS];
     worst[0] = 0.0;
     worst[1] = 0.0;
@@ -86,7 +108,8 @@ static int measure_steady(int kind, double ridge, double worst[2]) {
             return 0;
         }
         for (int k = 0; k < TICKS; k++) {
-            heights[k] = tick(&t, ridge * (steady[i] * k / RATE + 0.123), &out);
+            (void)tick(&t, ridge * (steady[i] * k / RATE + 0.123), &out);
+            heights[k] = out.height;
         }
         if (!steady_measure(heights + LEAD, TICKS - LEAD, RATE, steady[i], &found)) {
             return 0;
@@ -98,7 +121,7 @@ static int measure_steady(int kind, double ridge, double worst[2]) {
 }
 
 /* Half cycles played of a tremor at places that are spread over a ridge of 0.2 mm, and those that it crosses. */
-static int measure_tremor(int kind, double amplitude, double *played, double *crossed) {
+static int measure_tremor(const way *kind, double amplitude, double *played, double *crossed) {
     const double ridge = 0.2e-3;
     *played = 0.0;
     *crossed = 0.0;
@@ -121,25 +144,53 @@ static int measure_tremor(int kind, double amplitude, double *played, double *cr
     return 1;
 }
 
+/* A hand's speed wavers: 60 mm/s, by 10 % at 0.7 Hz and by 2 % at 3 Hz. How far the place strays from the true one,
+ * less its own mean over 51 ms: rms in counts. */
+static int measure_wavering(const way *kind, double *strays) {
+    enum { WINDOW = 51 };
+    static double off[TICKS];
+    tracker t;
+    knurl_grating_output out;
+    double squares = 0.0;
+    double sum = 0.0;
+    if (!start(&t, kind, 1e-3)) {
+        return 0;
+    }
+    for (int k = 0; k < TICKS; k++) {
+        const double s = k / RATE;
+        const double x = 0.06 * (s + 0.02 / (6.0 * PI) * sin(6.0 * PI * s) + 0.1 / (1.4 * PI) * sin(1.4 * PI * s));
+        off[k] = (tick(&t, x, &out) - x) / COUNT;
+        sum += off[k] - (k >= WINDOW ? off[k - WINDOW] : 0.0);
+        if (k >= LEAD) {
+            squares += pow(off[k - WINDOW / 2] - sum / WINDOW, 2.0) / (TICKS - LEAD);
+        }
+    }
+    *strays = sqrt(squares);
+    return 1;
+}
+
 static int write_rows(FILE *csv, json_writer *json, void *user) {
     (void)user;
     json_string(json, "table", "tracking.csv");
     json_number(json, "tolerance", STEADY_TOLERANCE);
-    fputs("tracker,false_1mm,felt_1mm,false_0.5mm,felt_0.5mm,tremor_10um,crossed_10um,tremor_20um,crossed_20um\n", csv);
-    for (int kind = 0; kind < TRACKERS; kind++) {
-        double cells[8];
+    fputs(
+        "tracker,false_1mm,felt_1mm,false_0.5mm,felt_0.5mm,tremor_20um,crossed_20um,tremor_50um,crossed_50um,strays\n",
+        csv);
+    for (const way *k = ways; k < ways + OF(ways); k++) {
+        double cells[9];
         for (size_t i = 0; i < OF(ridges); i++) {
-            if (!measure_steady(kind, ridges[i], cells + 2 * i) ||
-                !measure_tremor(kind, tremors[i], cells + 4 + 2 * i, cells + 5 + 2 * i)) {
+            if (!measure_steady(k, ridges[i], cells + 2 * i) ||
+                !measure_tremor(k, tremors[i], cells + 4 + 2 * i, cells + 5 + 2 * i) ||
+                !measure_wavering(k, &cells[8])) {
                 return 1;
             }
         }
-        fputs(names[kind], csv);
+        fputs(k->name, csv);
         study_end_row(csv, cells, OF(cells));
         say(stdout,
-            "%s: false tones %.3f (1 mm), %.3f (0.5 mm); felt to 440 Hz %.3f, %.3f; half cycles of a tremor of 0.01 mm "
-            "%.0f (crossed %.0f), of 0.02 mm %.0f (%.0f)\n",
-            names[kind], cells[0], cells[2], cells[1], cells[3], cells[4], cells[5], cells[6], cells[7]);
+            "%s: false tones %.3f (1 mm), %.3f (0.5 mm); felt to 440 Hz %.3f, %.3f; half cycles of a tremor of 0.02 mm "
+            "%.0f (crossed %.0f), of 0.05 mm %.0f (%.0f); strays by %.3f counts\n",
+            k->name, cells[0], cells[2], cells[1], cells[3], cells[4], cells[5], cells[6], cells[7], cells[8]);
     }
     return 0;
 }

@@ -21,7 +21,7 @@ static shape hilly_sheet(void) {
 /* Contact, frame and rates of one tick. */
 typedef struct felt {
     double proxy[3], normal[3], z, weights[3];
-    double x[3], y[3], coordinates[2], rates[2], steepest;
+    double x[3], y[3], coordinates[2], rates[2];
     uint32_t triangle;
     int32_t held, has_rates;
 } felt;
@@ -37,7 +37,7 @@ static felt feel(probe *p, const double hip[3], const double velocity[3]) {
         f.z = p->contact.z;
         f.triangle = p->contact.triangle;
         knurl_mesh_frame(p->mesh, &p->contact, f.x, f.y, f.coordinates);
-        f.has_rates = knurl_mesh_rates(p->mesh, &p->contact, velocity, f.rates, &f.steepest);
+        f.has_rates = knurl_mesh_rates(p->mesh, &p->contact, velocity, f.rates);
     }
     return f;
 }

@@ -101,53 +101,6 @@ TEST(above_half_the_update_rate_the_sign_changes_every_tick) {
     CHECK_CLOSE(band_x(&s, 0.0, 0.2), band_harmonics(0.0, 0.2), BAND_EXACT); /* it has no memory of that */
 }
 
-/* 1e5 random ticks through counts: steps, rests, reversals, jumps. */
-TEST(the_tracked_position_is_never_more_than_half_a_count_off_the_measured_one) {
-    uint64_t seed = 3;
-    const double count = 0.055e-3;
-    band_scan s = band_on(FS, 0.0, RATE, count);
-    double x = 0.0, v = 0.0;
-    for (int k = 0; k < 100000; k++) {
-        v += k % 100 == 0 ? random_between(&seed, -0.3, 0.3) - 0.5 * v : 0.0;
-        x += v / RATE + (k % 997 == 0 ? random_between(&seed, -0.1, 0.1) : 0.0);
-        const double measured = floor(x / count + 0.5) * count;
-        (void)band_x(&s, measured, v + random_between(&seed, -0.002, 0.002));
-        assert_true(fabs(s.state.tracked[0] - measured) <= 0.5 * count * (1.0 + 1e-9));
-    }
-}
-
-/* A steady 123 mm/s: counts tell the position to half a count, and the velocity the rest. */
-TEST(with_the_true_velocity_counts_are_felt_as_exact_positions_but_for_a_phase) {
-    const double count = 0.055e-3;
-    band_scan counted = band_on(FS, 0.0, RATE, count), exact = band_on(FS, 0.0, RATE, 0.0);
-    double before = 0.0;
-    for (int k = 0; k < 2000; k++) {
-        const double x = 0.123e-3 * k;
-        (void)band_x(&counted, floor(x / count + 0.5) * count, 0.123);
-        (void)band_x(&exact, x, 0.123);
-        const double late = counted.state.phase - exact.state.phase;
-        if (k > 100) { /* it has found its place in the count */
-            CHECK_CLOSE(late, before, 1e-9L);
-        }
-        before = late;
-    }
-    assert_true(fabs(before) < 0.055);
-}
-
-TEST(an_encoder_that_flickers_on_an_edge_makes_no_half_cycle) {
-    const double count = 0.055e-3, edge = 0.25 / FS;
-    for (int place = -20; place <= 20; place++) {
-        band_scan s = band_on(FS, 0.0, RATE, count);
-        const double at = edge + count * (place / 20.0 - 0.5);
-        int turns = 0;
-        for (int k = 0; k < 500; k++) { /* FOAW's velocity is 0 there */
-            (void)band_x(&s, at + (k / 7 % 2) * count, 0.0);
-            turns += k > 20 ? (int)s.out.turned : 0;
-        }
-        assert_int_equal(turns, 0);
-    }
-}
-
 TEST(without_a_position_the_velocity_is_summed_up) {
     band_scan with = band_on(FS, 0.0, RATE, 0.0), without = band_on(FS, 0.0, RATE, 0.0);
     uint64_t seed = 4;

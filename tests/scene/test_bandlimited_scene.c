@@ -273,7 +273,7 @@ static void check_flicker(surface_parts *parts, const double along[3], const dou
                 p[i] = COUNT * (floor(-DEPTH * normal[i] / COUNT) + flicker);
             }
             const knurl_tick_output out = tick_at(scene, p[0], p[1], p[2]);
-            toggles += k > 60 && out.height * first < 0.0; /* it settles first */
+            toggles += k > 150 && out.height * first < 0.0; /* it settles first */
             first = out.height;
             assert_true(length3(out.force) <= K * (BAND_CREST * A + out.depth));
         }

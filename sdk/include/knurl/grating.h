@@ -31,7 +31,7 @@ typedef struct knurl_grating {
     double spatial_frequency[2]; /**< fsx, fsy: cycles per metre along x and y, >= 0 */
     double amplitude;            /**< A: m, half peak to peak of the desired square wave, >= 0 */
     double update_rate_hz;       /**< f_h: 1 to 100,000 Hz */
-    double resolution; /**< m: quantum of the positions, 0 if they are exact. BANDLIMITED stays within half of it */
+    double resolution; /**< m: quantum of the positions, 0 if they are exact. Above 0 halves S2's deadband at times */
 } knurl_grating;
 
 /** The state of one HIP on one grating. Zero it to restart. */
@@ -42,7 +42,7 @@ typedef struct knurl_grating_state {
     int32_t playing;             /**< S2: 1 if an event has ticks left */
     int32_t moving;              /**< S2: 1 after an event: halves the deadband */
     int32_t sign;                /**< sign of the last height other than 0: +1 or -1; 0 before the first */
-    double tracked[2];           /**< BANDLIMITED: the position along x and y, m, smoothed between counts */
+    double tracked[2];           /**< BANDLIMITED: the position along x and y, m */
     double phase;                /**< BANDLIMITED: cycles; a crest is at 0 */
     double offset;               /**< BANDLIMITED on a grid: the phase's lead over the position's, cycles */
     int32_t axis;                /**< BANDLIMITED on a grid: 0 or 1, the axis whose cycles are counted */
@@ -84,9 +84,9 @@ KNURL_API double knurl_grating_s1(const double position[2], const double spatial
 
 /** Runs one tick of a checked grating.
  *
- * position: m along the surface's x and y (S1, BANDLIMITED). For BANDLIMITED it may be null: the velocity is then
- * integrated. velocity: m/s along x and y, of the HIP relative to the surface. state, output: the caller's. Does
- * nothing if another pointer is null.
+ * position: m along the surface's x and y (S1, BANDLIMITED); if it comes in counts, from knurl_velocity_track(). For
+ * BANDLIMITED it may be null: the velocity is then integrated. velocity: m/s along x and y, of the HIP relative to the
+ * surface. state, output: the caller's. Does nothing if another pointer is null.
  *
  * - S1: the height at the position.
  * - S2: when an event ends, the next one gets its period and amplitude from the current velocity (Algorithm 7). Below
@@ -94,9 +94,8 @@ KNURL_API double knurl_grating_s1(const double position[2], const double spatial
  * - BANDLIMITED: with p the phase, d = f_t/f_h and w a fade from 1 to 0 for n d from 0.38 to 0.5,
  *   H = 4/pi A (cos 2 pi p - w/3 cos 6 pi p + w/5 cos 10 pi p). Below d = 1/12 it fades into the mean of the square
  *   wave from the last tick's phase to this one's, which alone is used below 0.06. Above 1/2 the height is 0.7 A and
- *   changes sign every tick. p is fs times the position; a quantised position is advanced by the velocity and kept
- *   within half a count of the measured one. On a grid, p counts cycles along the axis that crosses the most (Eq. 12),
- *   and continues without a jump if the other axis takes over, at 1.1 times as many.
+ *   changes sign every tick. p is fs times the position. On a grid, p counts cycles along the axis that crosses the
+ * most (Eq. 12), and continues without a jump if the other axis takes over, at 1.1 times as many.
  *
  * [haptic thread] */
 KNURL_API void knurl_grating_step(const knurl_grating *grating, knurl_grating_state *state, const double position[2],

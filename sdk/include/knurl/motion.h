@@ -50,6 +50,18 @@ KNURL_API knurl_result knurl_velocity_prepare(int32_t method, double resolution,
 KNURL_API void knurl_velocity_update(knurl_velocity *velocity, const double position[3],
                                      double out[3]) KNURL_NONBLOCKING;
 
+/** s: over which knurl_velocity_track() takes the mean of velocities. By the study `tracking`, 0.1 s is as clean at
+ * steady speeds, but follows a tremor or a hand whose speed wavers less well; 0.01 s lets more of the counts' steps
+ * through. */
+#define KNURL_TRACK_S 0.02
+
+/** Finds a position between an encoder's counts, as smooth as the motion: the last one moved on by the mean of
+ * `velocity` over KNURL_TRACK_S, and within half the resolution of the measured one on each axis. So it is off by at
+ * most a count, and stands still if the encoder flickers. With resolution 0 it is the measured position. Once a tick,
+ * after knurl_velocity_update() if that gives the velocity (m/s). position: m, finite. [haptic thread] */
+KNURL_API void knurl_velocity_track(knurl_velocity *estimator, const double position[3], const double velocity[3],
+                                    double tracked[3]) KNURL_NONBLOCKING;
+
 /** Device to scene: scene = origin + rotation * scale * device. */
 typedef struct knurl_workspace {
     double origin[3];   /**< scene position of the device's origin, m, within KNURL_COORDINATE_MAX */

@@ -101,14 +101,6 @@ void knurl_mesh_measure_uvs(knurl_mesh *mesh) {
     }
 }
 
-/* Squared length of a gradient, times the square of twice the area. The value grows by c1 and c2 along the edges. */
-static double steepness2(double c1, double c2, const double edge1[3], const double edge2[3]) {
-    double along[3];
-    vec3_scale(c1, edge2, along);
-    vec3_madd(along, -c2, edge1, along);
-    return vec3_dot(along, along);
-}
-
 /* Direction in which u grows, of any length: dP/du without the division. */
 static void find_u_direction(const uv_edges *e, double x[3]) {
     const double along = e->det < 0.0 ? -1.0 : 1.0;
@@ -142,8 +134,8 @@ void knurl_mesh_set_axis(knurl_mesh *mesh, const double axis[3]) {
 }
 
 /* In the triangle's plane, the velocity is a edge1 + b edge2. */
-static int rates_by_uvs(const knurl_mesh *mesh, const knurl_contact *contact, const double velocity[3], double rates[2],
-                        double *steepest) {
+static int rates_by_uvs(const knurl_mesh *mesh, const knurl_contact *contact, const double velocity[3],
+                        double rates[2]) {
     uv_edges e;
     double across[3];
     double turned[3];
@@ -159,9 +151,6 @@ static int rates_by_uvs(const knurl_mesh *mesh, const knurl_contact *contact, co
     const double facing = vec3_dot(across, contact->normal) * e.det;
     rates[0] = (a * e.u1 + b * e.u2) * mesh->uv_scale[0];
     rates[1] = (a * e.v1 + b * e.v2) * (facing < 0.0 ? -mesh->uv_scale[1] : mesh->uv_scale[1]);
-    const double u = steepness2(e.u1, e.u2, e.edge1, e.edge2) * mesh->uv_scale[0] * mesh->uv_scale[0];
-    const double v = steepness2(e.v1, e.v2, e.edge1, e.edge2) * mesh->uv_scale[1] * mesh->uv_scale[1];
-    *steepest = sqrt((u > v ? u : v) / area2);
     return 1;
 }
 
@@ -248,7 +237,6 @@ static void keep_frame(const knurl_mesh *mesh, knurl_facet *f) {
     }
     frame_along(f->unit, x, f->x, f->y);
     f->has_frame = 1;
-    f->has_steepest = 0;
 }
 
 void knurl_mesh_find_frame(const knurl_mesh *mesh, const knurl_contact *contact, double x[3], double y[3],
@@ -262,8 +250,7 @@ void knurl_mesh_find_frame(const knurl_mesh *mesh, const knurl_contact *contact,
 }
 
 /* rates_by_uvs() on a cached facet. */
-static int rates_on_facet(const knurl_mesh *mesh, knurl_facet *f, const double velocity[3], double rates[2],
-                          double *steepest) {
+static int rates_on_facet(const knurl_facet *f, const double velocity[3], double rates[2]) {
     double turned[3];
     if (!f->has_uvs) {
         return 0;
@@ -274,18 +261,10 @@ static int rates_on_facet(const knurl_mesh *mesh, knurl_facet *f, const double v
     const double b = vec3_dot(turned, f->normal) / f->area2;
     rates[0] = (a * f->u1 + b * f->u2) * f->scale[0];
     rates[1] = (a * f->v1 + b * f->v2) * f->scale[1];
-    if (!f->has_steepest) {
-        const double u = steepness2(f->u1, f->u2, f->ab, f->ac) * mesh->uv_scale[0] * mesh->uv_scale[0];
-        const double v = steepness2(f->v1, f->v2, f->ab, f->ac) * mesh->uv_scale[1] * mesh->uv_scale[1];
-        f->steepest = sqrt((u > v ? u : v) / f->area2);
-        f->has_steepest = 1;
-    }
-    *steepest = f->steepest;
     return 1;
 }
 
-int knurl_mesh_rates(const knurl_mesh *mesh, const knurl_contact *contact, const double velocity[3], double rates[2],
-                     double *steepest) {
+int knurl_mesh_rates(const knurl_mesh *mesh, const knurl_contact *contact, const double velocity[3], double rates[2]) {
     double x[3], y[3], coordinates[2];
     if (mesh->tangents && mesh->normals && contact->facet && !mesh->has_axis) {
         knurl_facet curved = *contact->facet; /* a copy: with tangents, a kept frame would be wrong */
@@ -293,13 +272,11 @@ int knurl_mesh_rates(const knurl_mesh *mesh, const knurl_contact *contact, const
         return rates_on_facet(mesh, &curved, velocity, rates, steepest);
     }
     if (!mesh->has_axis) {
-        return contact->facet && contact->facet->has_frame
-                   ? rates_on_facet(mesh, contact->facet, velocity, rates, steepest)
-                   : rates_by_uvs(mesh, contact, velocity, rates, steepest);
+        return contact->facet && contact->facet->has_frame ? rates_on_facet(contact->facet, velocity, rates)
+                                                           : rates_by_uvs(mesh, contact, velocity, rates);
     }
     knurl_mesh_frame(mesh, contact, x, y, coordinates);
     rates[0] = vec3_dot(velocity, mesh->axis);
     rates[1] = vec3_dot(velocity, y);
-    *steepest = 1.0;
     return 1;
 }

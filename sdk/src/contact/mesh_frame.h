@@ -37,9 +37,9 @@ static inline void knurl_mesh_frame(const knurl_mesh *mesh, const knurl_contact 
     }
 }
 
-/* Rates of change of those coordinates (m/s) at a velocity of the HIP (m/s), and their largest change per metre along
- * the surface. Returns 0 and sets nothing if there is no axis and the uvs have no area. Allowed in a tick. */
-int knurl_mesh_rates(const knurl_mesh *mesh, const knurl_contact *contact, const double velocity[3], double rates[2],
-                     double *steepest) KNURL_NONBLOCKING;
+/* Rates of change of those coordinates (m/s) at a velocity of the HIP (m/s). Returns 0 and sets nothing if there is no
+ * axis and the uvs have no area. Allowed in a tick. */
+int knurl_mesh_rates(const knurl_mesh *mesh, const knurl_contact *contact, const double velocity[3],
+                     double rates[2]) KNURL_NONBLOCKING;
 
 #endif

@@ -41,19 +41,14 @@ static inline void knurl_plane_coordinates(const knurl_plane *plane, const knurl
     coordinates[1] *= contact->normal[2]; /* from behind, y is reversed */
 }
 
-/* Rates of change of those coordinates (m/s) at a velocity of the HIP (m/s), and their largest change per metre.
- * Returns 0 if the plane has no coordinates. Allowed in a tick. */
+/* Rates of change of those coordinates (m/s) at a velocity of the HIP (m/s). Returns 0 if the plane has no coordinates.
+ * Allowed in a tick. */
 static inline int knurl_plane_rates(const knurl_plane *plane, const knurl_contact *contact, const double velocity[3],
-                                    double rates[2], double *steepest) {
-    double most = 0.0;
+                                    double rates[2]) {
     for (int i = 0; i < 2; i++) {
-        const double *map = plane->map[i];
-        const double steepness2 = map[0] * map[0] + map[1] * map[1];
-        rates[i] = map[0] * velocity[0] + map[1] * velocity[1];
-        most = steepness2 > most ? steepness2 : most;
+        rates[i] = plane->map[i][0] * velocity[0] + plane->map[i][1] * velocity[1];
     }
     rates[1] *= contact->normal[2];
-    *steepest = most == 1.0 ? 1.0 : sqrt(most);
     return plane->has_coordinates;
 }
 

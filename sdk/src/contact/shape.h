@@ -91,15 +91,15 @@ static inline void knurl_shape_frame(const knurl_shape *shape, const knurl_conta
     }
 }
 
-/* Rates of change of those coordinates (m/s) at a velocity of the HIP (m/s), and their largest change per metre along
- * the surface. Returns 0 if there are no coordinates: do not use the outputs then. Allowed in a tick. */
+/* Rates of change of those coordinates (m/s) at a velocity of the HIP (m/s). Returns 0 if there are no coordinates: do
+ * not use the outputs then. Allowed in a tick. */
 static inline int knurl_shape_rates(const knurl_shape *shape, const knurl_contact *contact, const double velocity[3],
-                                    double rates[2], double *steepest) KNURL_NONBLOCKING {
+                                    double rates[2]) KNURL_NONBLOCKING {
     if (shape->plane) {
-        return knurl_plane_rates(shape->plane, contact, velocity, rates, steepest);
+        return knurl_plane_rates(shape->plane, contact, velocity, rates);
     }
     const double moving[3] = {velocity[0], velocity[1], velocity[2]}; /* a copy, see force_law.h */
-    return knurl_mesh_rates(shape->geometry, contact, moving, rates, steepest);
+    return knurl_mesh_rates(shape->geometry, contact, moving, rates);
 }
 
 /* Start of a stroke, as a zeroed contact with proxy, normal, weights and triangle set: on a mesh, the face that a hand

@@ -1,5 +1,5 @@
 /* The method BANDLIMITED: of the square wave's harmonics only those that the update rate can carry, at the phase of the
- * tracked position. No events, and no aliasing below f_h/2. At low speed it is the mean of the square wave over the
+ * position. No events, and no aliasing below f_h/2. At low speed it is the mean of the square wave over the
  * distance of the tick, which is as clean there, has sharper edges and swings to A only.
  * SPDX-License-Identifier: MIT */
 #include "grating/bandlimited.h"
@@ -54,6 +54,9 @@ static inline double harmonics(double amplitude, double phase, double d) {
         return first * c;
     }
     const double third = first * fade(3.0 * d, FADE_UNTIL, FADE_FROM);
+    if (5.0 * d >= FADE_UNTIL) {
+        return c * (first + third - 4.0 / 3.0 * third * (c * c));
+    }
     const double fifth = first * fade(5.0 * d, FADE_UNTIL, FADE_FROM);
     const double of_3 = -4.0 / 3.0 * third - 4.0 * fifth;
     const double x = c * c;
@@ -77,37 +80,22 @@ static double mean(double from, double to) {
     return height > 1.0 ? 1.0 : height > -1.0 ? height : -1.0;
 }
 
-/* Moves a tracked position by one tick's velocity, and no farther from the measured one than half a count: the
- * true one is within that too. So it is smooth in steady motion, never late and never more than half a count off, and
- * it stands still if an encoder flickers between two counts, because FOAW's velocity is 0 there. A second-order
- * observer at 12 Hz within the same bound was worse in every figure, and made half cycles of a flicker (`knurl study
- * tracking`).
- */
-static double track(double tracked, double moved, double measured, double count) {
-    const double at = tracked + moved;
-    const double low = measured - 0.5 * count;
-    const double high = measured + 0.5 * count;
-    return at > low ? at < high ? at : high : low;
-}
-
 /* The distance of one tick, m. */
 static double distance(double speed, double period) {
     const double moved = speed * period;
     return fabs(moved) < FARTHEST ? moved : 0.0;
 }
 
-/* Moves the position on by one tick. */
-static inline void follow(const knurl_grating *g, knurl_grating_state *s, knurl_along position, knurl_along velocity,
-                          double period, int32_t has_position) {
-    double *tracked = s->tracked;
-    if (has_position && (g->resolution == 0.0 || s->direction == 0)) {
-        tracked[0] = position.x;
-        tracked[1] = position.y;
-        return;
+/* Moves the position on by one tick. Returns it, so that it stays in registers. */
+static inline knurl_along follow(knurl_grating_state *s, knurl_along position, knurl_along velocity, double period,
+                                 int32_t has_position) {
+    if (!has_position) {
+        position.x = s->tracked[0] + distance(velocity.x, period);
+        position.y = s->tracked[1] + distance(velocity.y, period);
     }
-    const double x = distance(velocity.x, period), y = distance(velocity.y, period);
-    tracked[0] = has_position ? track(tracked[0], x, position.x, g->resolution) : tracked[0] + x;
-    tracked[1] = has_position ? track(tracked[1], y, position.y, g->resolution) : tracked[1] + y;
+    s->tracked[0] = position.x;
+    s->tracked[1] = position.y;
+    return position;
 }
 
 /* On a grid: the axis that crosses the most ridges (Eq. 12). If the other one takes over, the phase goes on from where
@@ -137,11 +125,11 @@ double knurl_bandlimited_height(const knurl_grating *grating, knurl_grating_stat
         choose_axis(grating, state, both);
         axis = state->axis;
     }
-    follow(grating, state, position, velocity, period, has_position);
+    const knurl_along at = follow(state, position, velocity, period, has_position);
     const double speed = axis ? velocity.y : velocity.x;
-    const double phase = fs[axis] * state->tracked[axis] + state->offset;
+    const double phase = fs[axis] * (axis ? at.y : at.x) + state->offset;
     const double from = state->direction == 0 ? phase : state->phase;
-    state->direction = speed < 0.0 ? -1 : speed > 0.0 || state->direction == 0 ? 1 : state->direction;
+    state->direction = speed < 0.0 ? -1 : 1;
     state->phase = phase;
     const double amplitude = grating->amplitude;
     double height;

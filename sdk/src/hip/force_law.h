@@ -6,6 +6,7 @@
 
 #include "base/base.h"
 #include "grating/step.h"
+#include "hip/friction.h"
 #include "proxy/contact_update.h"
 #include "surface/surface_frame.h"
 
@@ -14,7 +15,8 @@ typedef struct knurl_hip_motion {
     const knurl_hip_clock *clock;
     const double *velocity; /* scene, m/s */
     double rate;            /* Hz */
-    double quantum;         /* m, scene: largest flicker of a position at rest, the diagonal of one count */
+    double resolution;      /* m, device; 0: positions are exact */
+    const double *between;  /* m, scene: from the measured position to the tracked one */
 } knurl_hip_motion;
 
 /* The force of one contact. */
@@ -38,6 +40,16 @@ static inline void relative_velocity(const knurl_hip_motion *hip, const knurl_ac
     }
 }
 
+/* Moves surface coordinates on to the tracked position. */
+static inline void add_between(const double between[3], const knurl_active_contact *c, double coordinates[2]) {
+    double own[3], way[2];
+    knurl_pose_vector_to_own(c->pose, between, own);
+    if (knurl_surface_rates(c->surface, c->record, &c->contact, own, way)) {
+        coordinates[0] += way[0];
+        coordinates[1] += way[1];
+    }
+}
+
 /* Plays the grating for one tick. over: velocity in the shape's frame. coordinates: from knurl_surface_frame().
  * Functions that are not inlined get copies, so that the values themselves can stay in registers. */
 static inline void play_grating(const knurl_hip_motion *hip, const knurl_active_contact *c, const double over[3],
@@ -52,20 +64,23 @@ static inline void play_grating(const knurl_hip_motion *hip, const knurl_active_
         return;
     }
     knurl_surface_coordinates(c->surface, c->record, &c->contact, coordinates);
+    double rates[2] = {velocity.x, velocity.y};
+    int32_t has_position = 1;
+    if (knurl_methods[m->method].follows_position) { /* without coordinates the method integrates the velocity */
+        has_position = knurl_surface_rates(c->surface, c->record, &c->contact, over, rates);
+        if (hip->resolution > 0.0) {
+            add_between(hip->between, c, coordinates);
+        }
+    }
     const knurl_along place = {coordinates[0], coordinates[1]};
     out->cycles[0] = m->spatial_frequency[0] * place.x + 0.0; /* turns -0 into 0 */
     out->cycles[1] = m->spatial_frequency[1] * place.y + 0.0;
-    double rates[2] = {velocity.x, velocity.y}, steepest = 1.0;
-    int32_t has_position = 1;
-    if (knurl_methods[m->method].follows_position) { /* without coordinates the method integrates the velocity */
-        has_position = knurl_surface_rates(c->surface, c->record, &c->contact, over, rates, &steepest);
-    }
     const knurl_grating_input at = {place, {rates[0], rates[1]}, hip->clock->period, has_position};
     const knurl_grating grating = {.method = m->method,
                                    .spatial_frequency = {m->spatial_frequency[0], m->spatial_frequency[1]},
                                    .amplitude = c->record->is_smooth ? 0.0 : wall->amplitude,
                                    .update_rate_hz = hip->rate,
-                                   .resolution = hip->quantum * steepest};
+                                   .resolution = hip->resolution};
     knurl_grating_run(&grating, state, &at, &out->grating);
 }
 
@@ -76,25 +91,6 @@ static inline double normal_force(const knurl_wall *wall, double outwards) {
     }
     const double size = wall->stiffness * (wall->height - wall->z) - wall->damping * outwards;
     return KNURL_LIKELY(size > 0.0) ? size : 0.0;
-}
-
-/* Coulomb friction: the HIP drags an anchor along the surface by a spring of the wall's stiffness, and the anchor slips
- * if the spring would pull harder than friction holds. tangential: N, shape's frame. */
-static inline void friction_force(const knurl_active_contact *c, const knurl_wall *wall, double tangential[3]) {
-    const double friction = c->record->material.friction;
-    const double hold = wall->z < 0.0 ? -friction * wall->z : 0.0; /* m: longest spring that friction holds */
-    double *anchor = c->candidate->anchor;
-    double stretch[3] = {0.0, 0.0, 0.0};
-    if (!c->begins && hold > 0.0) {
-        vec3_sub(anchor, c->contact.proxy, stretch);
-        vec3_make_tangent(c->contact.normal, stretch);
-        const double length = vec3_length(stretch);
-        if (length > hold) {
-            vec3_scale(hold / length, stretch, stretch);
-        }
-    }
-    vec3_madd(c->contact.proxy, 1.0, stretch, anchor);
-    vec3_scale(wall->stiffness, stretch, tangential);
 }
 
 /* The force of one contact. wall: as limited by the protections; its height is set here. */
@@ -111,7 +107,7 @@ static inline void knurl_force_law(const knurl_hip_motion *hip, const knurl_acti
     vec3_scale(normal_force(wall, vec3_dot(over, c->contact.normal)), c->normal, out->force);
     if (c->record->material.friction > 0.0) {
         double tangential[3], force[3];
-        friction_force(c, wall, tangential);
+        knurl_friction_force(c, wall, tangential);
         knurl_pose_vector_to_parent(c->pose, tangential, force);
         vec3_madd(out->force, 1.0, force, out->force);
     }

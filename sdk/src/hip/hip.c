@@ -85,7 +85,6 @@ static void replace(knurl_hip *hip, const knurl_hip *made) {
 }
 
 void knurl_hip_set_scale(knurl_hip *hip, double scale) {
-    hip->quantum = 1.7320508075688772 * hip->facts.resolution * scale;
     knurl_guard_set_scale(&hip->guard, &hip->given, &hip->facts, scale);
 }
 

@@ -18,7 +18,7 @@ typedef struct knurl_added_force {
 typedef struct knurl_hip {
     uint64_t pinned; /* atomic: epoch in which the running tick began; 0: no tick runs */
     double rate;
-    double quantum;     /* m, scene: largest flicker of a position at rest, the diagonal of one count */
+    double between[3];  /* m, scene: from the measured position to the tracked one; 0 if positions are exact */
     int32_t is_rotated; /* 0: the workspace's rotation is the identity, and is skipped */
     int32_t centred;    /* 1: the scene chooses the workspace at its commit */
     knurl_workspace workspace;

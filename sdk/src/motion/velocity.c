@@ -39,6 +39,11 @@
  * host enables traps. */
 #define UNSEEN 1e300
 
+/* A tracked position's mean velocity is off a new one by at most a count in this many samples. FOAW's is off by up to a
+ * count in 11 samples, the way between its thirds; at a count in 15, half of what it
+ * evens out comes back (`knurl study tracking`). */
+#define MEAN_TICKS 10.0
+
 typedef char state_fits[sizeof(knurl_velocity_state) <= sizeof(knurl_velocity) ? 1 : -1];
 
 /* Ticks between samples: a millisecond. */
@@ -72,6 +77,10 @@ knurl_result knurl_velocity_prepare(int32_t method, double resolution, double up
     knurl_velocity_state *state = knurl_velocity_get_state(velocity);
     state->method = method;
     state->rate = update_rate_hz;
+    state->period = 1.0 / update_rate_hz;
+    state->half_count = 0.5 * resolution;
+    state->mean_share = fmin(1.0, state->period / KNURL_TRACK_S);
+    state->mean_off = resolution * update_rate_hz / (MEAN_TICKS * stride_at(update_rate_hz));
     if (method == KNURL_VELOCITY_FOAW) {
         state->stride = stride_at(update_rate_hz);
         state->steps_per_m = STEPS_PER_COUNT / resolution;

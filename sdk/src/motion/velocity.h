@@ -13,6 +13,13 @@ typedef struct knurl_velocity_state {
     double rate;        /* update rate, Hz */
     double steps_per_m; /* FOAW: fixed-point steps per metre */
     double slope_unit;  /* FOAW: m/s per step and sample */
+    double tracked[3];  /* tracking: the position, m */
+    double mean[3];     /* tracking: the velocity over some 20 ms, m/s */
+    double mean_share;  /* tracking: weight of a new velocity in it, 0 to 1 */
+    double mean_off;    /* tracking: how far it may be off a new one, m/s */
+    double half_count;  /* tracking: m */
+    double period;      /* s */
+    uint32_t tracking;  /* tracking: 1: `tracked` is set */
     uint32_t newest;    /* FOAW: row of the newest position of a ring, 0 to 15 */
     uint32_t started;   /* 1: a position has been seen */
     int32_t method;     /* KNURL_VELOCITY_DIFFERENCE or _FOAW */
@@ -28,7 +35,7 @@ static inline knurl_velocity_state *knurl_velocity_get_state(knurl_velocity *vel
 
 /* Clears the history: the next position counts as the first. */
 static inline void knurl_velocity_reset(knurl_velocity *velocity) {
-    knurl_velocity_get_state(velocity)->started = 0;
+    knurl_velocity_get_state(velocity)->started = knurl_velocity_get_state(velocity)->tracking = 0;
 }
 
 #endif

@@ -64,6 +64,15 @@ static void add_workspace_velocity(const knurl_hip *hip, const double at[3], dou
     vec3_madd(velocity, zoom, from_origin, velocity);
 }
 
+/* How far the tracked position is from the measured one, m, scene. */
+static void track(knurl_hip *hip, const double position[3], const double velocity[3]) {
+    const knurl_workspace *w = &hip->workspace;
+    double between[3];
+    knurl_velocity_track(&hip->velocity, position, velocity, between);
+    vec3_sub(between, position, between);
+    knurl_workspace_velocity_to_scene(w, between, hip->between);
+}
+
 /* Maps the device's position and velocity into the scene. A missing velocity is estimated in device axes, where the
  * quantisation is. Returns 0 if the position is invalid. */
 static int read_hip(knurl_hip *hip, const knurl_tick_input *input, knurl_tick_output *out) {
@@ -82,6 +91,9 @@ static int read_hip(knurl_hip *hip, const knurl_tick_input *input, knurl_tick_ou
         }
         knurl_velocity_update(&hip->velocity, input->position, estimate);
         velocity = estimate;
+    }
+    if (hip->facts.resolution > 0.0) {
+        track(hip, input->position, velocity);
     }
     if (hip->is_rotated) {
         knurl_workspace_to_scene(w, input->position, out->hip);
@@ -136,7 +148,8 @@ static inline double render_contact(knurl_hip *hip, knurl_active_contact *c, dou
     if (KNURL_UNLIKELY(c->surface->shape.bulge > 0.0) && !knurl_felt_find(c)) {
         return 0.0;
     }
-    const knurl_hip_motion motion = {&hip->contacts.clock, out->hip_velocity, hip->rate, hip->quantum};
+    const knurl_hip_motion motion = {&hip->contacts.clock, out->hip_velocity, hip->rate, hip->facts.resolution,
+                                     hip->between};
     const int64_t events = c->candidate->grating.event_count;
     knurl_wall wall;
     knurl_contact_force share;

@@ -60,9 +60,8 @@ int knurl_walker_go(knurl_walker *walker, const double direction[3]) {
 
 double knurl_walker_stretch(const knurl_walker *walker, const double direction[3]) {
     double rates[2];
-    double steepest;
-    return walker->surface->shape.has_coordinates && knurl_surface_rates(walker->surface, walker->surface->record,
-                                                                         &walker->contact, direction, rates, &steepest)
+    return walker->surface->shape.has_coordinates &&
+                   knurl_surface_rates(walker->surface, walker->surface->record, &walker->contact, direction, rates)
                ? fabs(rates[0])
                : 1.0;
 }

@@ -36,13 +36,12 @@ static inline void knurl_surface_coordinates(const knurl_surface_data *surface, 
     }
 }
 
-/* Rates of those coordinates (m/s) while the HIP moves over the surface at `velocity` (m/s, shape's frame), and their
- * largest change per metre along the surface. Returns 0, with the outputs untouched, if there are no coordinates. */
+/* Rates of those coordinates (m/s) while the HIP moves over the surface at `velocity` (m/s, shape's frame). Returns 0,
+ * with the outputs untouched, if there are no coordinates. */
 static inline int knurl_surface_rates(const knurl_surface_data *surface, const knurl_record *record,
-                                      const knurl_contact *contact, const double velocity[3], double rates[2],
-                                      double *steepest) {
+                                      const knurl_contact *contact, const double velocity[3], double rates[2]) {
     double straight[2];
-    if (!knurl_shape_rates(&surface->shape, contact, velocity, straight, steepest)) {
+    if (!knurl_shape_rates(&surface->shape, contact, velocity, straight)) {
         return 0;
     }
     rates[0] = record->cos_sin[0] * straight[0] + record->cos_sin[1] * straight[1];

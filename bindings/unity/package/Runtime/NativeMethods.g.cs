@@ -632,7 +632,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "70101b03ba6c8dec";
+        internal const string Interface = "8826c06838863606";
 
         internal const string Version = "0.3.0";
 
@@ -695,6 +695,7 @@ namespace Knurl
         internal const double KNURL_DEFAULT = -1.0;
         internal const int KNURL_FOAW_WINDOW = 15;
         internal const int KNURL_FOAW_STRIDE_MAX = 10;
+        internal const double KNURL_TRACK_S = 0.02;
         internal const int KNURL_NO_EVENT = -1;
         internal const double KNURL_S2_DEADBAND = 0.001;
         internal const int KNURL_CONTACTS_MAX = 4;
@@ -830,6 +831,10 @@ namespace Knurl
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void knurl_velocity_update(knurl_velocity* velocity, double* position, double* @out);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void knurl_velocity_track(knurl_velocity* estimator, double* position, double* velocity,
+            double* tracked);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void knurl_workspace_set_identity(knurl_workspace* workspace);

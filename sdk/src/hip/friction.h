@@ -1,0 +1,27 @@
+/* Coulomb friction along a surface. SPDX-License-Identifier: MIT */
+#ifndef KNURL_SRC_FRICTION_H
+#define KNURL_SRC_FRICTION_H
+
+#include "guard/wall.h"
+#include "proxy/contact_update.h"
+
+/* Coulomb friction: the HIP drags an anchor along the surface by a spring of the wall's stiffness, and the anchor slips
+ * if the spring would pull harder than friction holds. tangential: N, shape's frame. */
+static inline void knurl_friction_force(const knurl_active_contact *c, const knurl_wall *wall, double tangential[3]) {
+    const double friction = c->record->material.friction;
+    const double hold = wall->z < 0.0 ? -friction * wall->z : 0.0; /* m: longest spring that friction holds */
+    double *anchor = c->candidate->anchor;
+    double stretch[3] = {0.0, 0.0, 0.0};
+    if (!c->begins && hold > 0.0) {
+        vec3_sub(anchor, c->contact.proxy, stretch);
+        vec3_make_tangent(c->contact.normal, stretch);
+        const double length = vec3_length(stretch);
+        if (length > hold) {
+            vec3_scale(hold / length, stretch, stretch);
+        }
+    }
+    vec3_madd(c->contact.proxy, 1.0, stretch, anchor);
+    vec3_scale(wall->stiffness, stretch, tangential);
+}
+
+#endif
