@@ -17,12 +17,14 @@ struct knurl_facet {
     double inverse;   /* 1 / area2 */
     double unit[3];   /* unit normal towards `side` */
     /* set by mesh_frame.c */
-    int32_t has_frame; /* 1: x and y are set */
-    int32_t has_uvs;   /* 1: the uvs have an area and are set */
+    int32_t has_frame;     /* 1: x and y are set */
+    int32_t has_uvs;       /* 1: the uvs have an area and are set */
+    int32_t has_gradients; /* 1: `gradients` are set */
     double x[3], y[3];
-    double u0, v0;         /* at the first corner */
-    double u1, v1, u2, v2; /* differences at the others */
-    double scale[2];       /* m per u, and per v; signed so that y = n x x */
+    double u0, v0;          /* at the first corner */
+    double u1, v1, u2, v2;  /* differences at the others */
+    double scale[2];        /* m per u, and per v; signed so that y = n x x */
+    double gradients[2][3]; /* growth of the coordinates per metre of a way along the triangle */
 };
 
 /* Fills in the cache from a closest point inside the triangle. unit: its unit normal, towards `side`. */

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT */
 #include "contact/mesh_frame.h"
 
+#include "base/base.h"
 #include "base/vec3.h"
 #include "contact/facet.h"
 
@@ -133,24 +134,31 @@ void knurl_mesh_set_axis(knurl_mesh *mesh, const double axis[3]) {
     along[1] = sum / area;
 }
 
-/* In the triangle's plane, the velocity is a edge1 + b edge2. */
+/* What a coordinate grows by a metre along the triangle: in its plane, a way w is a edge1 + b edge2, with a = w .
+ * (edge2 x across) / area2 and b = w . (across x edge1) / area2. c1, c2: its growth along the edges. */
+static void find_gradient(const double edge1[3], const double edge2[3], const double across[3], double c1, double c2,
+                          double scale, double gradient[3]) {
+    double first[3], second[3];
+    vec3_cross(edge2, across, first);
+    vec3_cross(across, edge1, second);
+    vec3_scale(c1, first, gradient);
+    vec3_madd(gradient, c2, second, gradient);
+    vec3_scale(scale / vec3_dot(across, across), gradient, gradient);
+}
+
 static int rates_by_uvs(const knurl_mesh *mesh, const knurl_contact *contact, const double velocity[3],
                         double rates[2]) {
     uv_edges e;
-    double across[3];
-    double turned[3];
+    double across[3], u[3], v[3];
     if (!find_uv_edges(mesh, contact->triangle, &e)) {
         return 0;
     }
     vec3_cross(e.edge1, e.edge2, across);
-    const double area2 = vec3_dot(across, across);
-    vec3_cross(velocity, e.edge2, turned);
-    const double a = vec3_dot(turned, across) / area2;
-    vec3_cross(e.edge1, velocity, turned);
-    const double b = vec3_dot(turned, across) / area2;
     const double facing = vec3_dot(across, contact->normal) * e.det;
-    rates[0] = (a * e.u1 + b * e.u2) * mesh->uv_scale[0];
-    rates[1] = (a * e.v1 + b * e.v2) * (facing < 0.0 ? -mesh->uv_scale[1] : mesh->uv_scale[1]);
+    find_gradient(e.edge1, e.edge2, across, e.u1, e.u2, mesh->uv_scale[0], u);
+    find_gradient(e.edge1, e.edge2, across, e.v1, e.v2, facing < 0.0 ? -mesh->uv_scale[1] : mesh->uv_scale[1], v);
+    rates[0] = vec3_dot(u, velocity);
+    rates[1] = vec3_dot(v, velocity);
     return 1;
 }
 
@@ -237,6 +245,7 @@ static void keep_frame(const knurl_mesh *mesh, knurl_facet *f) {
     }
     frame_along(f->unit, x, f->x, f->y);
     f->has_frame = 1;
+    f->has_gradients = 0;
 }
 
 void knurl_mesh_find_frame(const knurl_mesh *mesh, const knurl_contact *contact, double x[3], double y[3],
@@ -250,17 +259,17 @@ void knurl_mesh_find_frame(const knurl_mesh *mesh, const knurl_contact *contact,
 }
 
 /* rates_by_uvs() on a cached facet. */
-static int rates_on_facet(const knurl_facet *f, const double velocity[3], double rates[2]) {
-    double turned[3];
+static int rates_on_facet(knurl_facet *f, const double velocity[3], double rates[2]) {
     if (!f->has_uvs) {
         return 0;
     }
-    vec3_cross(velocity, f->ac, turned);
-    const double a = vec3_dot(turned, f->normal) / f->area2;
-    vec3_cross(f->ab, velocity, turned);
-    const double b = vec3_dot(turned, f->normal) / f->area2;
-    rates[0] = (a * f->u1 + b * f->u2) * f->scale[0];
-    rates[1] = (a * f->v1 + b * f->v2) * f->scale[1];
+    if (KNURL_UNLIKELY(!f->has_gradients)) {
+        find_gradient(f->ab, f->ac, f->normal, f->u1, f->u2, f->scale[0], f->gradients[0]);
+        find_gradient(f->ab, f->ac, f->normal, f->v1, f->v2, f->scale[1], f->gradients[1]);
+        f->has_gradients = 1;
+    }
+    rates[0] = vec3_dot(f->gradients[0], velocity);
+    rates[1] = vec3_dot(f->gradients[1], velocity);
     return 1;
 }
 

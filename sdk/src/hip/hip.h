@@ -18,9 +18,11 @@ typedef struct knurl_added_force {
 typedef struct knurl_hip {
     uint64_t pinned; /* atomic: epoch in which the running tick began; 0: no tick runs */
     double rate;
-    double between[3];  /* m, scene: from the measured position to the tracked one; 0 if positions are exact */
-    int32_t is_rotated; /* 0: the workspace's rotation is the identity, and is skipped */
-    int32_t centred;    /* 1: the scene chooses the workspace at its commit */
+    double estimate[3];  /* m/s, device: the velocity, if it is estimated */
+    double between[3];   /* m, scene: from the measured position to the tracked one */
+    uint64_t tracked_at; /* tick that found it, from 1; 0: none */
+    int32_t is_rotated;  /* 0: the workspace's rotation is the identity, and is skipped */
+    int32_t centred;     /* 1: the scene chooses the workspace at its commit */
     knurl_workspace workspace;
     knurl_velocity velocity;
     knurl_guard guard;

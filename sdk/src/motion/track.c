@@ -3,9 +3,15 @@
 
 #include "base/base.h"
 
+#include <math.h>
+
+/* Of the most that a mean is off: slower is rest, before it becomes a denormal number, which takes ten times as long. */
+#define REST 1e-4
+
 /* x within [low, high]; low if x is not a number. */
 static inline double within(double x, double low, double high) {
-    return x > low ? x < high ? x : high : low;
+    const double above = x > low ? x : low; /* each is one instruction on x86 */
+    return above < high ? above : high;
 }
 
 void knurl_velocity_track(knurl_velocity *estimator, const double position[3], const double velocity[3],
@@ -14,13 +20,20 @@ void knurl_velocity_track(knurl_velocity *estimator, const double position[3], c
         return;
     }
     knurl_velocity_state *s = knurl_velocity_get_state(estimator);
-    for (int axis = 0; axis < 3; axis++) {
-        const double last = s->tracking ? s->tracked[axis] : position[axis];
-        const double before = s->tracking ? s->mean[axis] : velocity[axis];
-        s->mean[axis] = within(before + s->mean_share * (velocity[axis] - before), velocity[axis] - s->mean_off,
-                               velocity[axis] + s->mean_off);
-        tracked[axis] = s->tracked[axis] =
-            within(last + s->mean[axis] * s->period, position[axis] - s->half_count, position[axis] + s->half_count);
+    const double share = s->mean_share, off = s->mean_off, half = s->half_count, period = s->period;
+    if (KNURL_UNLIKELY(!s->tracking)) {
+        for (int axis = 0; axis < 3; axis++) {
+            s->tracked[axis] = position[axis];
+            s->mean[axis] = velocity[axis];
+        }
+        s->tracking = 1;
     }
-    s->tracking = 1;
+    for (int axis = 0; axis < 3; axis++) {
+        const double v = velocity[axis], p = position[axis], mean = s->mean[axis];
+        const double next = within(mean + share * (v - mean), v - off, v + off);
+        const double now = fabs(next) > REST * off ? next : 0.0;
+        const double at = within(s->tracked[axis] + now * period, p - half, p + half);
+        s->mean[axis] = now;
+        tracked[axis] = s->tracked[axis] = at;
+    }
 }

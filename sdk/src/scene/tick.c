@@ -64,21 +64,11 @@ static void add_workspace_velocity(const knurl_hip *hip, const double at[3], dou
     vec3_madd(velocity, zoom, from_origin, velocity);
 }
 
-/* How far the tracked position is from the measured one, m, scene. */
-static void track(knurl_hip *hip, const double position[3], const double velocity[3]) {
-    const knurl_workspace *w = &hip->workspace;
-    double between[3];
-    knurl_velocity_track(&hip->velocity, position, velocity, between);
-    vec3_sub(between, position, between);
-    knurl_workspace_velocity_to_scene(w, between, hip->between);
-}
-
 /* Maps the device's position and velocity into the scene. A missing velocity is estimated in device axes, where the
  * quantisation is. Returns 0 if the position is invalid. */
 static int read_hip(knurl_hip *hip, const knurl_tick_input *input, knurl_tick_output *out) {
     const knurl_workspace *w = &hip->workspace;
     const double *velocity = input->velocity;
-    double estimate[3];
     /* also without a position: otherwise the next tick would take the growth since for its own */
     const int is_moving = knurl_workspace_is_moving(&hip->move);
     const double zoom = is_moving ? move_workspace(hip) : 0.0;
@@ -89,11 +79,8 @@ static int read_hip(knurl_hip *hip, const knurl_tick_input *input, knurl_tick_ou
         if (!vec3_finite(input->position)) { /* keep it out of the estimator */
             return 0;
         }
-        knurl_velocity_update(&hip->velocity, input->position, estimate);
-        velocity = estimate;
-    }
-    if (hip->facts.resolution > 0.0) {
-        track(hip, input->position, velocity);
+        knurl_velocity_update(&hip->velocity, input->position, hip->estimate);
+        velocity = hip->estimate;
     }
     if (hip->is_rotated) {
         knurl_workspace_to_scene(w, input->position, out->hip);
@@ -143,10 +130,34 @@ static inline void count_grating(knurl_hip *hip, const knurl_active_contact *con
     hip->counts.half_cycles_played += share->grating.turned;
 }
 
+/* Finds the tracked position, once in a tick and only for a grating that follows positions in counts. If the last tick
+ * had none, it begins at the measured position. */
+static void track(knurl_hip *hip, const knurl_tick_input *input) {
+    const uint64_t tick = hip->counts.ticks + 1; /* 0: never */
+    if (hip->tracked_at == tick) {
+        return;
+    }
+    double *between = hip->between;
+    knurl_velocity_get_state(&hip->velocity)->tracking = hip->tracked_at + 1 == tick;
+    hip->tracked_at = tick;
+    knurl_velocity_track(&hip->velocity, input->position, input->has_velocity ? input->velocity : hip->estimate,
+                         between);
+    vec3_sub(between, input->position, between);
+    vec3_scale(hip->workspace.scale, between, between);
+    if (hip->is_rotated) {
+        mat3_mul(hip->workspace.rotation, between, between);
+    }
+}
+
 /* Computes one contact's force and adds it to the sum. Returns its texture's step, N. */
-static inline double render_contact(knurl_hip *hip, knurl_active_contact *c, double sum[3], knurl_tick_output *out) {
+static inline double render_contact(knurl_hip *hip, const knurl_tick_input *input, knurl_active_contact *c,
+                                    double sum[3], knurl_tick_output *out) {
     if (KNURL_UNLIKELY(c->surface->shape.bulge > 0.0) && !knurl_felt_find(c)) {
         return 0.0;
+    }
+    if (hip->facts.resolution > 0.0 && c->record->has_grating &&
+        knurl_methods[c->record->material.method].follows_position) {
+        track(hip, input);
     }
     const knurl_hip_motion motion = {&hip->contacts.clock, out->hip_velocity, hip->rate, hip->facts.resolution,
                                      hip->between};
@@ -193,11 +204,12 @@ static inline double send_force(knurl_hip *hip, double steps, const double force
 }
 
 /* Sums the forces of all contacts and of the game (N, scene), and sends the sum. Returns its length. */
-static inline double sum_forces(knurl_hip *hip, const knurl_added_force *added, knurl_tick_output *out) {
+static inline double sum_forces(knurl_hip *hip, const knurl_tick_input *input, const knurl_added_force *added,
+                                knurl_tick_output *out) {
     double force[3] = {0.0, 0.0, 0.0};
     double steps = 0.0;
     for (uint32_t i = 0; i < hip->contacts.active_count; i++) {
-        steps += render_contact(hip, &hip->contacts.active[i], force, out);
+        steps += render_contact(hip, input, &hip->contacts.active[i], force, out);
     }
     if (KNURL_UNLIKELY(added != NULL)) {
         vec3_madd(force, 1.0, added->force, force);
@@ -241,7 +253,7 @@ static double render(const knurl_scene *scene, knurl_hip *hip, const knurl_tick_
         vec3_copy(out->force, out->device_force);
         knurl_heat_add(&hip->last.heat, 0.0);
     } else {
-        length = sum_forces(hip, added, out);
+        length = sum_forces(hip, input, added, out);
     }
     if (KNURL_UNLIKELY(!knurl_is_finite(length))) {
         reset(hip, KNURL_TICK_NOT_FINITE, out);
