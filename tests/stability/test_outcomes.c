@@ -3,6 +3,7 @@
 #include "support/close.h"
 
 #include "runaways.h"
+#include "stability.h"
 
 #define PI 3.141592653589793
 
@@ -216,6 +217,27 @@ TEST(what_runs_away_raw_within_the_devices_own_limits_does_so) {
             fail_msg("row %u: %s", (unsigned)i, lab_outcome_name(r.outcome));
         }
     }
+}
+
+/* The study's map of amplitudes: 88 cells of speed and amplitude, without protections. S2, which does not follow the
+ * position, runs away in none. */
+TEST(by_amplitude_bandlimited_runs_away_no_more_than_the_best_of_the_others) {
+    static stability_cell cells[STABILITY_COLUMNS * STABILITY_ROWS];
+    stability_map map;
+    int compared = 0;
+    for (size_t i = 0; stability_map_at("stability_amplitudes", i, &map); i++) {
+        const int32_t method = stability_methods[map.method].method;
+        if (method != KNURL_METHOD_BANDLIMITED || map.without != KNURL_PROTECT_ALL ||
+            strcmp(map.label, "Falcon") != 0 || strcmp(map.grip, "loose") != 0) {
+            continue;
+        }
+        const size_t count = stability_map_run(&map, &signals, cells);
+        for (size_t cell = 0; cell < count; cell++) {
+            assert_int_not_equal(cells[cell].result.outcome, LAB_UNSTABLE);
+            compared++;
+        }
+    }
+    assert_int_equal(compared, 88);
 }
 
 SUITE_FIXTURES(NULL, drop_signals)
