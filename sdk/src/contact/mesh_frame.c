@@ -278,7 +278,7 @@ int knurl_mesh_rates(const knurl_mesh *mesh, const knurl_contact *contact, const
     if (mesh->tangents && mesh->normals && contact->facet && !mesh->has_axis) {
         knurl_facet curved = *contact->facet; /* a copy: with tangents, a kept frame would be wrong */
         keep_frame(mesh, &curved);
-        return rates_on_facet(mesh, &curved, velocity, rates, steepest);
+        return rates_on_facet(&curved, velocity, rates);
     }
     if (!mesh->has_axis) {
         return contact->facet && contact->facet->has_frame ? rates_on_facet(contact->facet, velocity, rates)
