@@ -31,6 +31,16 @@ foreach(library ${_libraries})
 endforeach()
 install(DIRECTORY sdk/include/knurl DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev)
 
+# What the headers declare, for makers of bindings; only if ./run mirror has fetched libclang.
+set(_libclang ${PROJECT_SOURCE_DIR}/build/mirror-venv/bin/python)
+if(EXISTS ${_libclang})
+  file(GLOB _headers CONFIGURE_DEPENDS sdk/include/knurl/*.h)
+  add_custom_command(OUTPUT api.json DEPENDS scripts/api.py ${_headers}
+    COMMAND ${_libclang} -B ${CMAKE_CURRENT_SOURCE_DIR}/scripts/api.py ${CMAKE_CURRENT_BINARY_DIR}/api.json)
+  add_custom_target(knurl_api ALL DEPENDS api.json)
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/api.json DESTINATION ${CMAKE_INSTALL_DATADIR}/knurl COMPONENT dev)
+endif()
+
 configure_package_config_file(cmake/knurl-config.cmake.in knurl-config.cmake INSTALL_DESTINATION ${_package}
   NO_SET_AND_CHECK_MACRO)
 write_basic_package_version_file(knurl-config-version.cmake COMPATIBILITY SameMinorVersion)

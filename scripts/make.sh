@@ -107,4 +107,6 @@ mirror() {
     need_packages "${BUILD_PACKAGES[@]}"
     need_python mirror-venv bindings/unity/native/requirements.txt
     build/mirror-venv/bin/python bindings/unity/native/mirror.py
+    build/mirror-venv/bin/python -B scripts/api.py build/api.json
+    echo 'run: all that the headers declare is in build/api.json'
 }
