@@ -38,7 +38,7 @@ if(EXISTS ${_libclang})
   add_custom_command(OUTPUT api.json DEPENDS scripts/api.py ${_headers}
     COMMAND ${_libclang} -B ${CMAKE_CURRENT_SOURCE_DIR}/scripts/api.py ${CMAKE_CURRENT_BINARY_DIR}/api.json)
   add_custom_target(knurl_api ALL DEPENDS api.json)
-  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/api.json DESTINATION ${CMAKE_INSTALL_DATADIR}/knurl COMPONENT dev)
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/api.json DESTINATION ${CMAKE_INSTALL_DATADIR}/knurl COMPONENT dev OPTIONAL)
 endif()
 
 configure_package_config_file(cmake/knurl-config.cmake.in knurl-config.cmake INSTALL_DESTINATION ${_package}

@@ -2,16 +2,8 @@
  * opened. SPDX-License-Identifier: MIT */
 #include "memory/failing.h"
 
-#include "device/dhd/dhd_double.h"
-#include "device/falcon/falcon_double.h"
-#include "device/faults/functions_double.h"
-#include "device/inverse3/inverse3_double.h"
-#include "device/rawhid/rawhid_double.h"
-#include "device/rawhid/serial_double.h"
-#include "device/touch/touch_double.h"
+#include "device/doubles.h"
 
-static const device_double *const doubles[] = {&functions_double, &touch_double, &falcon_double,  &rawhid_double,
-                                               &serial_double,    &dhd_double,   &inverse3_double};
 static const device_double *current;
 static knurl_device *device;
 static knurl_loop *loop;
@@ -56,7 +48,7 @@ static void close_it(void) {
 }
 
 TEST(every_driver_opens_and_runs_or_says_why_not_wherever_memory_runs_out) {
-    for (size_t i = 0; i < COUNT_OF(doubles); i++) {
+    for (size_t i = 0; i < double_count; i++) {
         const failing_call calls[] = {{doubles[i]->name, NULL, open_it, close_it, NULL, 0, 0},
                                       {"... a loop on it", open_first, run_it, close_it, NULL, 0, 0}};
         current = doubles[i];

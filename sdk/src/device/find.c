@@ -5,6 +5,7 @@
 #include "base/system.h"
 #include "device/listings.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -22,6 +23,7 @@ knurl_result knurl_device_open(const char *uri, knurl_device **device) {
     if (KNURL_IS_NULL(uri) || KNURL_IS_NULL(device)) {
         return KNURL_ERROR_ARGUMENT;
     }
+    char known[128] = "";
     const size_t length = strcspn(uri, ":");
     for (size_t i = 0; i < DRIVER_COUNT; i++) {
         const knurl_driver *driver = drivers[i];
@@ -32,9 +34,11 @@ knurl_result knurl_device_open(const char *uri, knurl_device **device) {
             }
             return result;
         }
+        const size_t used = strlen(known);
+        const char *before = i == 0 ? "" : i + 1 < DRIVER_COUNT ? ", " : " or ";
+        (void)snprintf(known + used, sizeof known - used, "%s%s", before, driver->uri);
     }
-    return knurl_fail(KNURL_ERROR_UNKNOWN,
-                      "device: expected fake, touch, falcon, rawhid, serial, dhd or inverse3, found '%s'", uri);
+    return knurl_fail(KNURL_ERROR_UNKNOWN, "device: expected %s, found '%s'", known, uri);
 }
 
 /* One driver's listing, on its own thread because a vendor's library may hang. */

@@ -1,24 +1,13 @@
 /* Every driver passes samples/conform over its double, in real loops on virtual time. SPDX-License-Identifier: MIT */
 #include "trial.h"
 
-#include "device/dhd/dhd_double.h"
-#include "device/falcon/falcon_double.h"
-#include "device/faults/functions_double.h"
-#include "device/inverse3/inverse3_double.h"
-#include "device/rawhid/rawhid_double.h"
-#include "device/rawhid/serial_double.h"
-#include "device/touch/touch_double.h"
+#include "device/doubles.h"
 #include "support/close.h"
 
 #include "base/system.h"
 
 #include <stdio.h>
 #include <stdlib.h>
-
-/* A driver's double is added here, and its files in CMakeLists.txt. */
-static const device_double *const doubles[] = {
-    &touch_double, &falcon_double, &rawhid_double, &serial_double, &dhd_double, &inverse3_double, &functions_double,
-};
 
 /* After these the motors have no force until all is well. */
 #define LASTING                                                                                                        \
@@ -97,7 +86,7 @@ static uint64_t most_ticks(void) {
 
 TEST(every_driver_keeps_every_promise_over_its_double) {
     int broken = 0;
-    for (size_t i = 0; i < COUNT_OF(doubles); i++) {
+    for (size_t i = 0; i < double_count; i++) {
         tried = doubles[i];
         const subject on = {
             open_double,           inject, count_bits(tried->faults & LASTING), is_limp, close_double, NULL, NULL,

@@ -7,12 +7,7 @@
 #include "table.h"
 
 #include "device/core/home.h"
-#include "device/dhd/dhd_double.h"
-#include "device/falcon/falcon_double.h"
-#include "device/inverse3/inverse3_double.h"
-#include "device/rawhid/rawhid_double.h"
-#include "device/rawhid/serial_double.h"
-#include "device/touch/touch_double.h"
+#include "device/doubles.h"
 
 #include <knurl/loop.h>
 #include <signal.h>
@@ -21,11 +16,6 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-/* A driver's double is added here, and its files in CMakeLists.txt. */
-static const device_double *const doubles[] = {
-    &touch_double, &falcon_double, &rawhid_double, &serial_double, &dhd_double, &inverse3_double, &functions_double,
-};
 
 #define ROOM 64
 
@@ -213,7 +203,7 @@ static void check_row(row *r, outcome (*attempt)(int which), int (*is_good)(cons
 }
 
 TEST(every_fault_of_every_device_zeroes_the_force_within_5_ms_of_its_event_and_is_overcome) {
-    for (size_t i = 0; i < COUNT_OF(doubles); i++) {
+    for (size_t i = 0; i < double_count; i++) {
         for (int fault = DOUBLE_UNPLUG; fault < DOUBLE_FAULT_COUNT; fault++) {
             if (doubles[i]->faults & 1u << fault) {
                 tried = doubles[i];
@@ -253,7 +243,7 @@ static int is_backwards(const outcome *r, int which) {
 }
 
 TEST(a_motor_that_is_wired_backwards_gets_no_force_until_the_device_is_opened_again) {
-    for (size_t i = 0; i < COUNT_OF(doubles); i++) {
+    for (size_t i = 0; i < double_count; i++) {
         if (doubles[i]->open_backwards) {
             row *r = add_row(doubles[i]->name, "motors are wired backwards", "when it is opened again");
             check_row(r, try_backwards, is_backwards, (int)i);
