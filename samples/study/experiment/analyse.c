@@ -7,12 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-int exp_is_of(const exp_record *r, const exp_design *d) {
-    return r->experiment == d->experiment &&
-           ((r->trial.methods[0] == d->methods[0] && r->trial.methods[1] == d->methods[1]) ||
-            (r->trial.methods[0] == d->methods[1] && r->trial.methods[1] == d->methods[0]));
-}
-
 static void print_experiment(const exp_records *records, const exp_design *d) {
     size_t trials = 0;
     size_t subjects = 0;

@@ -21,7 +21,7 @@ enum { EXP_KEYBOARD = 0, EXP_BUTTONS = 1, EXP_SIMULATED = 2 };
 #define EXP_TRAINING_MM 4.0                 /* the gratings' period in experiment 4's training */
 #define EXP_SIMULATION "SIMULATED answers: a formula of this program's own, not a person; they say nothing about people"
 
-/* --- protocol.c, training.c: the design --- */
+/* --- protocol.c: the design; plan.c: a session's trials --- */
 
 /* One experiment: two methods, compared at periods x amplitudes. In the paper's, a rival and its proposal. */
 typedef struct exp_design {
@@ -67,14 +67,11 @@ typedef struct exp_trial {
 } exp_trial;
 
 /* A session's trials in order, at most EXP_MAX_TRIALS; the same for the same seed. training: 1: six trials of training
- * first. Blocks hold the intensities in random order, each of those the periods in random order, the second method
- * first in half of them. In experiment 4 blocks come in pairs, and the second has every cell in the opposite order to
- * the first: each order occurs equally often in each cell, for each subject. reduced: the gratings' amplitude. Returns
- * how many. */
+ * first: the worst three of each intensity, or each fault of a grating on either side. Blocks hold the intensities in
+ * random order, each of those the periods in random order, the second method first in half of them. In experiment 4
+ * blocks come in pairs, and the second has every cell in the opposite order to the first: each order occurs equally
+ * often in each cell, for each subject. reduced: the gratings' amplitude. Returns how many. */
 uint32_t exp_plan(const exp_design *design, uint64_t seed, int reduced, int training, exp_trial trials[EXP_MAX_TRIALS]);
-
-/* The training's six trials: the worst three of each intensity, or each fault of a grating on either side. */
-void exp_plan_training(const exp_design *design, uint64_t seed, double amplitude, exp_trial trials[EXP_TRAINING]);
 
 /* 1: the answer to a trial of the training was the better one; methods[side] was chosen. */
 int exp_is_right(const exp_design *design, const exp_trial *trial, int side);
@@ -104,7 +101,7 @@ int exp_stimulus_init(const exp_trial *trial, exp_stimulus *stimulus);
 /* N, upwards, at tick 0 to EXP_TRIAL_TICKS - 1; 0 in pauses and beyond. */
 double exp_stimulus_force(const exp_stimulus *stimulus, uint64_t tick);
 
-/* --- a session (session.c, resume.c) and its trials (drive.c, temporal.c, training.c, grating.c) --- */
+/* --- a session (session.c, resume.c) and its trials (drive.c, rest.c, temporal.c, training.c, grating.c) --- */
 
 typedef struct exp_session {
     const exp_design *design;

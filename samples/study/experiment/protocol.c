@@ -89,67 +89,6 @@ void exp_shuffle(uint32_t *items, uint32_t count, uint64_t *state) {
     }
 }
 
-static void number_and_shuffle(uint32_t *items, uint32_t count, uint64_t *state) {
-    for (uint32_t i = 0; i < count; i++) {
-        items[i] = i;
-    }
-    exp_shuffle(items, count, state);
-}
-
-/* One intensity's trials in one block: every period once, in random order; the second method first in half of them,
- * drawn apart from the periods; if their number is odd, chance has the last one. */
-static void plan_pairing(const exp_design *design, uint32_t block, double amplitude, uint64_t *state,
-                         exp_trial *trials) {
-    uint32_t periods[EXP_PERIODS];
-    uint32_t orders[EXP_PERIODS];
-    const uint32_t count = design->period_count;
-    number_and_shuffle(periods, count, state);
-    number_and_shuffle(orders, count, state);
-    const uint32_t extra = exp_random(state) < 0.5 ? 0 : count % 2;
-    for (uint32_t i = 0; i < count; i++) {
-        const int second_first = orders[i] < count / 2 + extra;
-        trials[i].block = block;
-        trials[i].period = design->periods[periods[i]];
-        trials[i].amplitude = amplitude;
-        trials[i].methods[0] = design->methods[second_first];
-        trials[i].methods[1] = design->methods[!second_first];
-    }
-}
-
-/* Each cell of this block in the opposite order to the block before. */
-static void mirror(const exp_trial *before, exp_trial *trials, uint32_t count) {
-    for (uint32_t i = 0; i < count; i++) {
-        for (uint32_t k = 0; k < count; k++) {
-            if (before[k].period == trials[i].period) {
-                trials[i].methods[0] = before[k].methods[1];
-                trials[i].methods[1] = before[k].methods[0];
-            }
-        }
-    }
-}
-
-uint32_t exp_plan(const exp_design *design, uint64_t seed, int reduced, int training,
-                  exp_trial trials[EXP_MAX_TRIALS]) {
-    uint64_t state = seed + 0x100000000u * (uint64_t)design->experiment;
-    uint32_t count = 0;
-    memset(trials, 0, EXP_MAX_TRIALS * sizeof *trials);
-    if (training) {
-        exp_plan_training(design, seed, design->amplitudes[reduced ? 0 : 1], trials);
-        count = EXP_TRAINING;
-    }
-    for (uint32_t block = 1; block <= design->blocks; block++) {
-        uint32_t levels[2];
-        number_and_shuffle(levels, 2, &state);
-        for (uint32_t i = 0; i < 2; i++) {
-            if (exp_has_gratings(design) && levels[i] != (reduced ? 0u : 1u)) {
-                continue;
-            }
-            plan_pairing(design, block, design->amplitudes[levels[i]], &state, trials + count);
-            if (design->experiment == EXP_COMPARE && block % 2 == 0) {
-                mirror(trials + count - design->period_count, trials + count, design->period_count);
-            }
-            count += design->period_count;
-        }
-    }
-    return count;
+int exp_is_right(const exp_design *design, const exp_trial *trial, int side) {
+    return exp_has_gratings(design) ? trial->faults[side] == EXP_GOOD : trial->methods[side] == design->methods[1];
 }

@@ -1,5 +1,5 @@
 /* One row of a session's CSV: checks every cell that the analysis uses. SPDX-License-Identifier: MIT */
-#include "records.h"
+#include "record_row.h"
 
 #include <math.h>
 #include <stdlib.h>

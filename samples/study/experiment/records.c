@@ -1,5 +1,5 @@
 /* Reads the CSV files of sessions. SPDX-License-Identifier: MIT */
-#include "records.h"
+#include "record_row.h"
 
 #include "in.h"
 #include "os.h"
@@ -105,4 +105,10 @@ int exp_read_records(const char *path, exp_records *records) {
     free(line);
     (void)fclose(f);
     return code;
+}
+
+int exp_is_of(const exp_record *r, const exp_design *d) {
+    return r->experiment == d->experiment &&
+           ((r->trial.methods[0] == d->methods[0] && r->trial.methods[1] == d->methods[1]) ||
+            (r->trial.methods[0] == d->methods[1] && r->trial.methods[1] == d->methods[0]));
 }

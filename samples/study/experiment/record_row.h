@@ -1,6 +1,6 @@
 /* The columns of a session's CSV. SPDX-License-Identifier: MIT */
-#ifndef KNURL_EXPERIMENT_RECORDS_H
-#define KNURL_EXPERIMENT_RECORDS_H
+#ifndef KNURL_EXPERIMENT_RECORD_ROW_H
+#define KNURL_EXPERIMENT_RECORD_ROW_H
 
 #include "experiment.h"
 
