@@ -20,7 +20,7 @@ typedef struct run_options {
     const char *path, *device, *surface, *stroke, *trace, *method, *out, *limits, *wav;
     knurl_gltf_options budget;
     double seconds, rate;
-    int fast, full_model, clamp, reconnect, pretty, view;
+    int fast, full_model, clamp, reconnect, pretty, view, exact;
     int32_t stroke_id, method_id;
 } run_options;
 
@@ -61,6 +61,7 @@ static int read_options(int argc, char **argv, run_options *o) {
         {"--seconds", TOOL_NUMBER, &o->seconds, 0.001, RUN_SECONDS_MAX, "s"},
         {"--rate", TOOL_NUMBER, &o->rate, KNURL_UPDATE_RATE_MIN, KNURL_UPDATE_RATE_MAX, "Hz"},
         {"--fast", TOOL_FLAG, &o->fast, 0, 0, ""},
+        {"--exact", TOOL_FLAG, &o->exact, 0, 0, ""},
         {"--view", TOOL_FLAG, &o->view, 0, 0, ""},
         {"--clamp", TOOL_FLAG, &o->clamp, 0, 0, ""},
         {"--reconnect", TOOL_FLAG, &o->reconnect, 0, 0, ""},
@@ -80,6 +81,9 @@ static int read_options(int argc, char **argv, run_options *o) {
     }
     if (o->stroke && o->trace) {
         return tool_error(TOOL_USAGE, "run: expected --stroke or --trace, found both");
+    }
+    if (o->exact && !o->trace) {
+        return tool_error(TOOL_USAGE, "run: --exact: expected --trace, whose positions it is about");
     }
     if (o->view && o->fast) {
         return tool_error(TOOL_USAGE, "run: expected --view or --fast, found both");
@@ -147,6 +151,18 @@ static int is_fake(const run_options *o) {
     return !o->device || strncmp(o->device, "fake", 4) == 0;
 }
 
+/* Whether the trace turned out to be in an encoder's counts. */
+static int tell_counts(const run *r) {
+    knurl_device_info info;
+    knurl_device_info_init(&info, sizeof info);
+    (void)knurl_device_get_info(r->device, &info);
+    if (info.resolution > 0.0 && !(r->options.device && strstr(r->options.device, "resolution="))) {
+        tool_tell("note", "%s: positions are in counts of %.4g mm and felt as such; --exact takes them as exact",
+                  r->options.trace, 1e3 * info.resolution);
+    }
+    return TOOL_OK;
+}
+
 /* A fake device gets its hand or its trace; a real one is moved by its user. */
 static int lay(run *r, knurl_surface_id surface, double *last_t) {
     const run_options *o = &r->options;
@@ -156,7 +172,8 @@ static int lay(run *r, knurl_surface_id surface, double *last_t) {
                      : stroke_place(r->scene, r->device, surface);
     }
     if (o->trace) {
-        return stroke_play(r->scene, r->device, o->trace, last_t);
+        const int code = stroke_play(r->scene, r->device, o->trace, last_t);
+        return code ? code : tell_counts(r);
     }
     r->travel.stroke = o->stroke_id;
     return stroke_lay(r->scene, r->device, surface, o->stroke_id, &r->travel.stroke_length);
@@ -165,7 +182,15 @@ static int lay(run *r, knurl_surface_id surface, double *last_t) {
 static int open_device(run *r) {
     const run_options *o = &r->options;
     protect_device_files(o->device ? o->device : "");
-    const knurl_result result = knurl_device_open(o->device ? o->device : "fake", &r->device);
+    char uri[1024];
+    const char *named = o->device ? o->device : "fake";
+    if (o->exact && is_fake(o)) { /* no counts: a resolution of 0 */
+        (void)snprintf(uri, sizeof uri, "%s%sresolution=0", named,
+                       strchr(named, '?')   ? "&"
+                       : strchr(named, ':') ? "?"
+                                            : ":?");
+    }
+    const knurl_result result = knurl_device_open(o->exact && is_fake(o) ? uri : named, &r->device);
     if (result) { /* a device that exists and cannot be had is a failure; a name that is none is wrong usage */
         const int is_usage = result == KNURL_ERROR_UNKNOWN || result == KNURL_ERROR_ARGUMENT;
         return tool_library_error(is_usage ? TOOL_USAGE : TOOL_FAILURE, "run: --device");
@@ -361,6 +386,7 @@ static void print_summary(const run *r, const knurl_loop_stats *stats) {
     json_open(&json, NULL, '{');
     json_string(&json, "device", device.name);
     json_number(&json, "rate_hz", r->options.rate);
+    json_number(&json, "resolution_m", device.resolution);
     json_number(&json, "ticks", (double)stats->ticks);
     json_number(&json, "contact_s", (double)counts.contact_ticks / r->options.rate);
     json_number(&json, "events", (double)counts.events);

@@ -94,6 +94,9 @@ int cmd_scan(int argc, char **argv) {
     if (code != TOOL_OK) {
         return code;
     }
+    if (strcmp(path, "-") == 0) { /* its header is read twice */
+        return tool_error(TOOL_USAGE, "scan: expected a CSV file, found '-'; only run's --trace reads standard input");
+    }
     const int is_position = !tool_csv_has(path, "vx");
     code = tool_read_csv(path, is_position ? positions : velocities, 2, &table);
     if (code == TOOL_OK) {

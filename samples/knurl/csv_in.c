@@ -143,13 +143,16 @@ int tool_read_csv(const char *path, const char *const *names, uint32_t count, to
     memset(table, 0, sizeof *table);
     table->columns = count;
     const char *why = "";
-    FILE *stream = os_open_input(path, &why);
+    const int is_stdin = strcmp(path, "-") == 0;
+    FILE *stream = is_stdin ? stdin : os_open_input(path, &why);
     if (!stream) {
         return tool_error(TOOL_FAILURE, "%s: cannot be read: %s", path, why);
     }
     out_protect_stream(stream);
-    const int code = read_rows(path, stream, names, table);
-    (void)fclose(stream);
+    const int code = read_rows(is_stdin ? "standard input" : path, stream, names, table);
+    if (!is_stdin) {
+        (void)fclose(stream);
+    }
     if (code != TOOL_OK) {
         free(table->cells);
         memset(table, 0, sizeof *table);

@@ -52,7 +52,8 @@ static const help_command commands[] = {
       {"--reconnect", "", "search for a lost device instead of ending"},
       {"--surface", "NAME", "the surface to stroke; default: the first"},
       {"--stroke", "NAME", "of the fake device's hand, 1 mm deep: line (default), sweep, circle, press or rest"},
-      {"--trace", "CSV", "the fake device plays positions t,x,y,z (s, m) instead of a hand"},
+      {"--trace", "CSV", "the fake device plays positions t,x,y,z (s, m) instead of a hand; - is standard input"},
+      {"--exact", "", "--trace's positions are exact, even if they look like an encoder's counts"},
       {"--seconds", "S",
        "run time by the clock, with fake by its ticks; default 5 (with --view 600), or the trace's length"},
       {"--rate", "HZ", "update rate, 100 to 10000; default 1000"},
@@ -65,14 +66,15 @@ static const help_command commands[] = {
       BUDGET,
       {"--clamp", "", "limits walls and textures to what the device can do"},
       PRETTY},
-     "CSV in (--trace): columns t, x, y, z by name, in any order; scene metres.\n"
+     "CSV in (--trace): columns t, x, y, z by name, in any order; scene metres. Positions in an encoder's counts are\n"
+     "recognised and felt through an estimator of velocity for counts; resolution_m in the JSON is 0 if they are exact.\n"
      "CSV out (--out): t,x,y,z,vx,vy,surface,depth,fs,ft,height,fx,fy,fz. x..z and f in scene axes (m, N), v in the\n"
      "surface's frame (m/s), surface a name or none. An apostrophe is put before a name that is 'none', begins with\n"
      "an apostrophe, or would be a formula in a spreadsheet (= + - @).\n"
-     "JSON: device, rate_hz, ticks, contact_s, events, metres, half_cycles_crossed, half_cycles_played, overruns,\n"
-     "watchdogs, absences, force_limit_ticks, above_nyquist_ticks, non_finite_ticks, entry_ticks, slew_ticks,\n"
-     "heat_ticks, passivity_ticks, squeezed_ticks, visit_limit_ticks, heat, force_max_n, faults, tick_ns and\n"
-     "jitter_us {p50, p99, max}.\n"
+     "JSON: device, rate_hz, resolution_m, ticks, contact_s, events, metres, half_cycles_crossed,\n"
+     "half_cycles_played, overruns, watchdogs, absences, force_limit_ticks, above_nyquist_ticks, non_finite_ticks,\n"
+     "entry_ticks, slew_ticks, heat_ticks, passivity_ticks, squeezed_ticks, visit_limit_ticks, heat, force_max_n,\n"
+     "faults, tick_ns and jitter_us {p50, p99, max}.\n"
      "Files are written completely or not at all, and never replace one that is read.\n"
      "Keys of --device fake:?key=value&key=value:\n",
      knurl_fake_keys},

@@ -22,7 +22,7 @@ int travel_check(const travel *t, const knurl_scene *scene, knurl_surface_id sur
     const char *name = NULL;
     knurl_material_desc material;
     knurl_material_desc_init(&material, sizeof material);
-    if (seconds < JUDGED_S || knurl_scene_get_tick(scene, 0, NULL, &counts) ||
+    if ((t->stroke && seconds < JUDGED_S) || knurl_scene_get_tick(scene, 0, NULL, &counts) ||
         knurl_scene_get_surface_name(scene, surface, &name) || knurl_scene_get_material(scene, surface, &material)) {
         return TOOL_OK;
     }

@@ -16,8 +16,8 @@ typedef struct travel {
 /* A tick. [haptic thread] */
 void travel_add(travel *t, const knurl_tick_output *output);
 
-/* After a whole run of `seconds`: TOOL_OK, or TOOL_NO_CONTACT having said why on stderr. A run of less than a second
- * is not judged: its hand has only just come down. */
+/* After a whole run of `seconds`: TOOL_OK, or TOOL_NO_CONTACT having said why on stderr. A hand's
+ * run of less than a second is not judged: it has only just come down. */
 int travel_check(const travel *t, const knurl_scene *scene, knurl_surface_id surface, double seconds);
 
 #endif

@@ -1,5 +1,6 @@
 /* The fake device's driver. SPDX-License-Identifier: MIT */
 #include "device/drivers.h"
+#include "device/fake/counts.h"
 #include "device/fake/fake_uri.h"
 #include "device/fake/hand.h"
 #include "device/fake/plant.h"
@@ -21,7 +22,8 @@ typedef struct fake {
     knurl_hand_path used; /* in use since the start: the same, or of an earlier stroke */
     double *trace;        /* rows of t, x, y, z; null for a simulated hand */
     uint64_t trace_rows;
-    uint64_t trace_at; /* the row before the present time */
+    double trace_resolution; /* m: the counts in which it was recorded; 0: exact */
+    uint64_t trace_at;       /* the row before the present time */
     double dt;
     uint64_t ticks; /* reads since the start */
     int found;      /* 1: reopened since the start */
@@ -78,7 +80,7 @@ static void fake_info(const knurl_device *device, knurl_device_info *info) {
         info->workspace_min[axis] = -0.5 * size[axis];
         info->workspace_max[axis] = 0.5 * size[axis];
     }
-    info->resolution = f->trace && !s->resolution_named ? 0.0 : s->resolution;
+    info->resolution = f->trace && !s->resolution_named ? f->trace_resolution : s->resolution;
     info->max_force = s->max_force;
     info->delay = s->delay;
     info->continuous_force = s->continuous_force > 0.0 ? s->continuous_force : INFINITY;
@@ -254,6 +256,11 @@ knurl_result knurl_fake_set_trace(knurl_device *device, const double *rows, uint
     if (result) {
         return result;
     }
+    double resolution = 0.0;
+    result = of(device)->settings.resolution_named ? KNURL_OK : knurl_counts_find(rows, row_count, &resolution);
+    if (result) {
+        return result;
+    }
     double *copy = malloc((size_t)row_count * 4 * sizeof *copy);
     if (!copy) {
         return knurl_fail(KNURL_ERROR_MEMORY, "trace: could not get memory for %llu rows",
@@ -263,6 +270,7 @@ knurl_result knurl_fake_set_trace(knurl_device *device, const double *rows, uint
     free(of(device)->trace);
     of(device)->trace = copy;
     of(device)->trace_rows = row_count;
+    of(device)->trace_resolution = resolution;
     of(device)->trace_at = 0;
     return KNURL_OK;
 }
