@@ -13,8 +13,7 @@
 static volatile sig_atomic_t interrupted;
 
 static void on_signal(int number) {
-    (void)number;
-    interrupted = 1;
+    interrupted = number;
 }
 
 /* One line of the report. */
@@ -62,7 +61,7 @@ static int measure(bench *b, const bench_case *only, report *out) {
         r->outcome = bench_run(b, c, &r->result);
         say_progress_end();
         if (r->outcome == BENCH_INTERRUPTED) {
-            return tool_error(TOOL_FAILURE, "bench: interrupted in %s; the cases before it are printed", c->name);
+            return tool_error(TOOL_INTERRUPTED + interrupted, "bench: interrupted in %s; the cases before it are printed", c->name);
         }
         if (r->outcome == BENCH_FAILED) {
             return tool_library_error(TOOL_FAILURE, c->name);

@@ -203,7 +203,7 @@ TEST(an_interrupt_ends_it_with_what_there_is) {
     (void)nanosleep(&while_it_runs, NULL);
     assert_int_equal(kill(p.pid, SIGINT), 0);
     process_finish(&p);
-    assert_int_equal(p.exit_code, 1);
+    assert_int_equal(p.exit_code, 130);
     check_brackets(p.out);
     assert_non_null(strstr(p.err, "interrupted in paced_plane"));
 }
