@@ -1,6 +1,7 @@
 /* Files from strangers: what the tool does not read and does not wait for.
  * SPDX-License-Identifier: MIT */
 #include "support/close.h"
+#include "support/terminal.h"
 #include "support/tool.h"
 
 #include <fcntl.h>
@@ -92,6 +93,7 @@ TEST(what_loading_may_cost_is_an_option) {
 /* Runs `knurl inspect path` with its standard error on a terminal, which gets `text`. is_slow: it is stopped while it
  * loads, for longer than a load may take without a word. */
 static void inspect_on_terminal(const char *path, int is_slow, char *text, size_t size) {
+    need_terminal();
     const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
     size_t length = 0;
     if (terminal < 0 || grantpt(terminal) != 0 || unlockpt(terminal) != 0) {

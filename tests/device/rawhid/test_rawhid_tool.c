@@ -1,4 +1,5 @@
 /* The command-line tool with a WoodenHaptics, emulated, on the machine. SPDX-License-Identifier: MIT */
+#include "support/terminal.h"
 #include "support/tool.h"
 
 #define ON_EMULATED(...)                                                                                               \
@@ -7,6 +8,7 @@
 static const char plate[] = KNURL_TEST_ASSETS "/plate_1d.glb";
 
 TEST(the_tool_lists_the_device) {
+    need_terminal();
     SCOPED_PROCESS p = ON_EMULATED("devices");
     check_done(&p);
     assert_non_null(strstr(p.out, "rawhid:16c0:0486"));
@@ -14,6 +16,7 @@ TEST(the_tool_lists_the_device) {
 }
 
 TEST(a_plate_is_felt_with_it) {
+    need_terminal();
     process p = ON_EMULATED("run", plate, "--device", "rawhid", "--seconds", "0.6");
     for (int tries = 1; p.exit_code != 0 && tries < 4; tries++) { /* an emulation that stalls for a second is lost */
         print_error("%s", p.err);
@@ -27,6 +30,7 @@ TEST(a_plate_is_felt_with_it) {
 }
 
 TEST(a_run_with_a_device_that_is_not_there_fails_with_a_sentence) {
+    need_terminal();
     SCOPED_PROCESS p = ON_EMULATED("run", plate, "--device", "rawhid:1234:6", "--seconds", "0.1");
     assert_true(p.exit_code != 0);
     assert_non_null(strstr(p.err, "looked for a USB HID device 1234:0006 and found none"));

@@ -1,6 +1,7 @@
 /* The raw HID driver as it is, on hidapi as it is, over an emulated hidraw device. Nothing here is about time: there is
  * more between both than on a machine with a device. SPDX-License-Identifier: MIT */
 #include "support/close.h"
+#include "support/terminal.h"
 
 #include "base/vec3.h"
 #include "device/drivers.h"
@@ -33,6 +34,7 @@ static int tear_down(void **state) {
 }
 
 static void plug(uint16_t usage_page, uint8_t report_bytes) {
+    need_terminal();
     assert_int_equal(emulated_hid_plug(&hid, usage_page, report_bytes, NULL), 1);
 }
 

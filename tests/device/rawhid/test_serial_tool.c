@@ -1,4 +1,5 @@
 /* The command-line tool with a WoodenHaptics on an emulated serial port. SPDX-License-Identifier: MIT */
+#include "support/terminal.h"
 #include "support/tool.h"
 
 #include <fcntl.h>
@@ -18,6 +19,7 @@ static const char *uri_of_port(void) {
 }
 
 TEST(a_plate_is_felt_with_it) {
+    need_terminal();
     process p = ON_EMULATED("run", plate, "--device", uri_of_port(), "--seconds", "1");
     for (int tries = 1; p.exit_code != 0 && tries < 4; tries++) { /* an emulation that stalls for a second is lost */
         print_error("%s", p.err);
@@ -43,6 +45,7 @@ TEST(a_file_that_is_no_port_is_told_apart_from_one_in_use) {
 }
 
 TEST(a_port_that_another_program_has_locked_is_refused) {
+    need_terminal();
     const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
     assert_true(terminal >= 0 && grantpt(terminal) == 0 && unlockpt(terminal) == 0);
     const int other = open(ptsname(terminal), O_RDWR | O_NOCTTY);
