@@ -157,6 +157,23 @@ TEST(closed_bodies_are_counted_where_they_meet_and_not_by_themselves) {
     }
 }
 
+/* A crumpled sheet: closed fans inside, which are passed over, and triangles with one edge on the rim. */
+TEST(fans_are_passed_over_but_for_triangles_at_a_rim) {
+    static const double half[2] = {1.0, 1.0};
+    uint32_t sum = 0;
+    for (uint64_t seed = 1; seed <= 40; seed++) {
+        uint64_t bits = seed;
+        shape s = shape_sheet(5, 4, half, NULL);
+        for (uint32_t v = 0; v < s.vertex_count; v++) {
+            for (size_t axis = 0; axis < 3; axis++) {
+                s.positions[3 * (size_t)v + axis] += (float)random_between(&bits, -0.5, 0.5);
+            }
+        }
+        sum += check_count(&s);
+    }
+    assert_true(sum > 100);
+}
+
 /* One triangle above another, turned and moved along it, at half a seam and at two: faces, edges and corners meet. */
 TEST(a_gap_is_touched_across_up_to_the_seam) {
     uint32_t counts[2] = {0, 0};

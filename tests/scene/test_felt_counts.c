@@ -127,6 +127,15 @@ static knurl_surface_check check_of(surface_parts *parts, knurl_surface_info *in
     return check;
 }
 
+TEST(across_an_axis_nothing_is_stretched_whatever_the_uvs) {
+    SCOPED_SHAPE s = uneven_sheet(8.0);
+    surface_parts parts = surface_mesh(&s);
+    knurl_surface_info info;
+    parts.desc.axis[1] = 1.0;
+    (void)check_of(&parts, &info);
+    CHECK_VECTOR(info.stretch_y, 1.0, 1.0, 1.0, 0.0);
+}
+
 TEST(stretch_is_told_along_y_too_and_warned_of_beyond_an_octave) {
     static const double ratios[] = {1.0, 8.0};
     for (size_t i = 0; i < COUNT_OF(ratios); i++) {

@@ -55,6 +55,24 @@ TEST(normals_that_cannot_be_right_are_told_and_their_triangles_felt_flat) {
     assert_int_equal(bad_with(g * unit, unit, 0.0), 5); /* 90 degrees off */
 }
 
+/* Every vertex once, so that it is the first, second or third corner of its triangles. */
+TEST(a_normal_that_is_none_is_told_at_any_corner) {
+    smooth_mesh m = smooth_make_sphere(1);
+    for (uint32_t v = 0; v < m.s.vertex_count; v++) {
+        float *normal = &m.normals[3 * (size_t)v], kept[3];
+        uint32_t at_vertex = 0;
+        for (uint32_t i = 0; i < m.s.index_count; i++) {
+            at_vertex += m.s.indices[i] == v;
+        }
+        memcpy(kept, normal, sizeof kept);
+        memset(normal, 0, sizeof kept);
+        SCOPED_SCENE *scene = scene_with(&m);
+        assert_int_equal(info_of(scene).bad_normals, at_vertex);
+        memcpy(normal, kept, sizeof kept);
+    }
+    smooth_free(&m);
+}
+
 TEST(a_smooth_sphere_says_how_far_it_is_from_its_triangles) {
     smooth_mesh m = smooth_make_sphere(2);
     knurl_scene *scene = scene_with(&m);

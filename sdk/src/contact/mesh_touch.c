@@ -59,7 +59,8 @@ static int is_beyond(const bounded *b, const double corners[3][3], int shared, d
     return above | below | beside[0] | beside[1] | beside[2];
 }
 
-/* Squared distance between two segments (Ericson 2005, section 5.1.9). */
+/* Squared distance between two segments if it is between points inside both (Ericson 2005, section 5.1.9). If an end of
+ * one is nearest, HUGE_VAL: ends are tested against the triangle. */
 static double segments_distance2(const double a[3], const double b[3], const double c[3], const double d[3]) {
     double ab[3], cd[3], ca[3], off[3];
     vec3_sub(b, a, ab);
@@ -67,14 +68,10 @@ static double segments_distance2(const double a[3], const double b[3], const dou
     vec3_sub(a, c, ca);
     const double ab2 = vec3_dot(ab, ab), cd2 = vec3_dot(cd, cd), dot = vec3_dot(ab, cd);
     const double ab_ca = vec3_dot(ab, ca), cd_ca = vec3_dot(cd, ca);
-    const double det = ab2 * cd2 - dot * dot;
-    double s = det > 0.0 ? (dot * cd_ca - ab_ca * cd2) / det : 0.0;
-    s = s > 0.0 ? s < 1.0 ? s : 1.0 : 0.0;
-    double t = (dot * s + cd_ca) / cd2;
-    if (!(t >= 0.0 && t <= 1.0)) {
-        t = t > 1.0 ? 1.0 : 0.0;
-        s = (t * dot - ab_ca) / ab2;
-        s = s > 0.0 ? s < 1.0 ? s : 1.0 : 0.0;
+    const double s = (dot * cd_ca - ab_ca * cd2) / (ab2 * cd2 - dot * dot);
+    const double t = (dot * s + cd_ca) / cd2;
+    if (!(s >= 0.0 && s <= 1.0 && t >= 0.0 && t <= 1.0)) { /* or parallel */
+        return HUGE_VAL;
     }
     vec3_madd(ca, s, ab, off);
     vec3_madd(off, -t, cd, off);
