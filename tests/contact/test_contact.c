@@ -13,6 +13,20 @@ TEST(plane_is_entered_from_the_front) {
     assert_int_equal(p.contact.triangle, 0);
 }
 
+TEST(y_of_a_plane_is_a_quarter_turn_on_from_its_axis) {
+    static const double half[2] = {0.1, 0.1}, axis[3] = {0.36, 0.48, 0.8};
+    knurl_plane plane;
+    knurl_plane_from_rectangle(half, axis, &plane);
+    CHECK_CLOSE(plane.x[0], 0.6, 1e-15);
+    CHECK_CLOSE(plane.x[1], 0.8, 1e-15);
+    CHECK_CLOSE(plane.map[0][0], 0.36, 1e-15); /* metres along the axis, which is not in the plane */
+    CHECK_CLOSE(plane.map[0][1], 0.48, 1e-15);
+    CHECK_CLOSE(plane.map[1][0], -0.8, 1e-15);
+    CHECK_CLOSE(plane.map[1][1], 0.6, 1e-15);
+    CHECK_CLOSE(plane.stretch[0][1], 0.6, 1e-15);
+    CHECK_CLOSE(plane.stretch[1][1], 1.0, 1e-15);
+}
+
 TEST(plane_holds_until_the_hip_is_in_front_again) {
     probe p = probe_plane(HALF_X, HALF_Y);
     (void)probe_to(&p, 0.0, 0.0, 0.001);

@@ -6,6 +6,21 @@ static double valley(double x, double y) {
     return 0.2 * x + 0.1 * y * y; /* flat, it would be stored as a plane */
 }
 
+TEST(a_surface_tells_what_it_added_to_the_scene) {
+    surface_parts parts = surface_plane();
+    SCOPED_SCENE *scene = empty_scene(1);
+    for (int i = 0; i < 3; i++) { /* with room in the lists */
+        (void)add_surface(scene, &parts);
+    }
+    parts.desc.name = "a name that takes memory of its own";
+    const uint64_t before = knurl_scene_get_bytes(scene);
+    const knurl_surface_id id = add_surface(scene, &parts);
+    knurl_surface_info info;
+    knurl_surface_info_init(&info, sizeof info);
+    assert_int_equal(knurl_scene_get_surface_info(scene, id, &info), KNURL_OK);
+    assert_int_equal(info.bytes, knurl_scene_get_bytes(scene) - before);
+}
+
 TEST(removing_gives_the_bytes_back) {
     ledger books = {0, 0, 0, 0};
     SCOPED_SHAPE sheet = shape_sheet(30, 30, (const double[2]){0.05, 0.05}, valley);
