@@ -61,6 +61,9 @@ static void print_surface(json_writer *json, const knurl_surface_info *info, con
     json_number(json, "model_error", info->model_error);
     json_number(json, "seam", info->seam);
     json_number(json, "touching_pairs", (double)info->touching_pairs);
+    json_number(json, "curved_triangles", info->curved_triangles);
+    json_number(json, "bad_normals", info->bad_normals);
+    json_number(json, "bulge", info->bulge);
     json_flag(json, "in_reach", reachable);
     json_flag(json, "double_sided", info->double_sided != 0);
     print_material(json, material);

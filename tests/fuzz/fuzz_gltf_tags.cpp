@@ -34,7 +34,7 @@ std::string tag(supply &s) {
                        "amplitude\":" + value(s, "2e-4") + "," + prefix + "stiffness\":" + value(s, "400");
     if (take_byte(&s) % 2 == 0)
         text += "," + prefix + "axis\":" + value(s, "[1,0,0]");
-    static const char *const more[] = {"damping", "friction", "orientation", "method", "version", "depth"};
+    static const char *const more[] = {"damping", "friction", "orientation", "method", "version", "depth", "smooth"};
     if (take_byte(&s) % 4 == 0)
         text += "," + prefix + one_of(s, more) + "\":" + number(s);
     return ",\"extras\":{" + (flat ? text : "\"knurl\":{\"version\":" + value(s, "1") + "," + text + "}") + "}";
@@ -65,6 +65,8 @@ std::string primitive(supply &s) {
         text += R"(,"TEXCOORD_0":)" + index(s, 6);
     if (take_byte(&s) % 4 == 0)
         text += R"(,"TANGENT":)" + index(s, 6);
+    if (take_byte(&s) % 2 == 0)
+        text += R"(,"NORMAL":)" + index(s, 6);
     text += "}";
     if (take_byte(&s) % 2 == 0)
         text += R"(,"indices":)" + index(s, 6);

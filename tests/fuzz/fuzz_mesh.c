@@ -103,7 +103,7 @@ static void stroke(const knurl_mesh_desc *mesh, supply *s) {
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     supply s = {data, size};
-    float positions[3 * 24];
+    float positions[3 * 24], normals[3 * 24];
     uint32_t indices[3 * 40];
     const uint32_t vertices = 3 + take_byte(&s) % 22;
     const uint32_t corners = 3 * (1 + take_byte(&s) % 40);
@@ -135,6 +135,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         knurl_mesh_destroy(&heap, mesh);
     }
     EXPECT(heap.bytes == 0);
+    stroke(&desc, &s);
+    for (uint32_t i = 0; i < 3 * vertices; i++) { /* some are unit vectors, most nearly are */
+        normals[i] = i % 3 == 2 ? 1.0f : (float)take_byte(&s) / 512.0f - 0.25f;
+    }
+    normals[take_byte(&s) % (3 * vertices)] = (float)take_number(&s);
+    desc.normals = normals;
     stroke(&desc, &s);
     return 0;
 }

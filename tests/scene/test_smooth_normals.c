@@ -38,6 +38,10 @@ static uint32_t bad_with(double x, double y, double z) {
         assert_true(k < 135 || length3(out.force) > 0.0);
     }
     assert_int_equal(info.curved_triangles + info.bad_normals, 1280);
+    knurl_surface_check check;
+    knurl_surface_check_init(&check, sizeof check);
+    assert_int_equal(knurl_scene_check_surface(scene, 0, knurl_scene_get_surface(scene, 0), &check), KNURL_OK);
+    assert_int_equal((check.exceeded & KNURL_LIMIT_NORMALS) != 0, info.bad_normals > 0);
     knurl_scene_destroy(scene);
     smooth_free(&m);
     return info.bad_normals;

@@ -66,11 +66,11 @@ static void write_slow_file(const char *path) {
 }
 
 TEST(what_loading_may_cost_is_an_option) {
-    process p = RUN_TOOL("inspect", plate, "--budget", "vertices=7"); /* 4 of POSITION, 4 of TEXCOORD_0 */
-    check_says(&p, 1, "options.max_vertices: expected at most 7, found 8");
+    process p = RUN_TOOL("inspect", plate, "--budget", "vertices=11"); /* 4 each of POSITION, NORMAL, TEXCOORD_0 */
+    check_says(&p, 1, "options.max_vertices: expected at most 11, found 12");
     p = RUN_TOOL("run", plate, "--fast", "--budget", "triangles=1,seconds=9.5");
     check_says(&p, 1, "options.max_triangles: expected at most 1, found 2");
-    p = RUN_TOOL("inspect", plate, "--budget", "surfaces=3,bytes=100000,vertices=24,triangles=6,seconds=60");
+    p = RUN_TOOL("inspect", plate, "--budget", "surfaces=3,bytes=100000,vertices=36,triangles=6,seconds=60");
     check_done(&p);
     process_free(&p);
     static const char *const wrong[] = {"size=3",

@@ -114,7 +114,9 @@ enum {
                                   committed, 15 other meshes are within 1 mm of its anchor */
     KNURL_LIMIT_WINDING = 256, /**< mixed winding, turned over (knurl_surface_info.turned_triangles) or not; or reversed
                                   twins of some triangles, but not of all */
-    KNURL_LIMIT_STRETCH = 32 /**< uneven uvs: somewhere S1 and BANDLIMITED render more than KNURL_STRETCH_MAX times the
+    KNURL_LIMIT_NORMALS = 512, /**< normals that cannot be right: their triangles are felt flat
+                                  (knurl_surface_info.bad_normals) */
+    KNURL_LIMIT_STRETCH = 32   /**< uneven uvs: somewhere S1 and BANDLIMITED render more than KNURL_STRETCH_MAX times the
                                 material's ridges per metre, or fewer than 1 / KNURL_STRETCH_MAX */
 };
 

@@ -174,13 +174,13 @@ size_t count_elements(const Model &model, int index, size_t components, size_t m
     return elements.count;
 }
 
-std::vector<float> read_floats(const Model &model, int index, const std::string &where) {
+std::vector<float> read_floats(const Model &model, int index, const std::string &where, bool only_finite) {
     const Source source(model, index, where);
     const Elements elements = dense_elements(model, source.accessor, vertices_max, source.place);
     if (elements.component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
         refuse(source.place, "componentType: expected 5126 (float) or integers of 8 or 16 bits, found 5125");
     std::vector<float> out = read_elements<float>(model, source.accessor, elements, source.place, element_to_floats);
-    for (size_t i = 0; i < out.size(); ++i)
+    for (size_t i = 0; only_finite && i < out.size(); ++i)
         if (!knurl_is_finite(out[i]))
             refuse(source.place, "element " + std::to_string(i / elements.components) +
                                      ": expected finite numbers, found " + (std::isnan(out[i]) ? "NaN" : "infinity"));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <tuple>
 #include <unordered_map>
 
 namespace knurl::gltf {
@@ -55,7 +56,7 @@ class Filter {
                     break; // its ancestors are kept already
                 kept->second = node_of(static_cast<size_t>(node));
             }
-            filtered_.instance_primitives.push_back(primitive_place(instance.mesh, instance.primitive));
+            filtered_.instance_primitives.push_back(primitive_place(instance));
         }
         return std::move(filtered_);
     }
@@ -77,10 +78,12 @@ class Filter {
     }
 
     /// Reads each primitive once, for all nodes; primitives with the same mode and accessors share a place.
-    uint32_t primitive_place(uint32_t mesh, uint32_t primitive) {
-        const auto [known, fresh] = primitive_places_.emplace(uint64_t{mesh} << 32U | primitive, 0);
+    uint32_t primitive_place(const Instance &instance) {
+        const bool is_smooth = instance.tag.smooth.value_or(true);
+        const auto [known, fresh] =
+            primitive_places_.try_emplace(std::tuple(instance.mesh, instance.primitive, is_smooth), 0);
         if (fresh) {
-            tinygltf::Primitive made = primitive_of(mesh, primitive);
+            tinygltf::Primitive made = primitive_of(instance.mesh, instance.primitive, is_smooth);
             const auto [same, first] = same_primitives_.emplace(key_of(made), filtered_.primitives.size());
             if (first)
                 filtered_.primitives.push_back(std::move(made));
@@ -89,7 +92,8 @@ class Filter {
         return known->second;
     }
 
-    tinygltf::Primitive primitive_of(uint32_t mesh_index, uint32_t primitive_index) {
+    /// is_smooth: false: without its normals.
+    tinygltf::Primitive primitive_of(uint32_t mesh_index, uint32_t primitive_index, bool is_smooth) {
         const Fields mesh = root_.item("meshes", "mesh", mesh_index);
         const Fields primitive = mesh.element("primitives", primitive_index);
         tinygltf::Primitive kept;
@@ -105,7 +109,9 @@ class Filter {
         if (!attributes || attributes->find("POSITION") == nullptr)
             primitive.refuse_key("attributes.POSITION", "missing: expected an accessor in a tagged primitive");
         for (const Attribute &read : attributes_read)
-            if (const auto accessor = attributes->index(read.name, accessors_, "accessors"))
+            if (!is_smooth && std::string_view(read.name) == "NORMAL")
+                continue;
+            else if (const auto accessor = attributes->index(read.name, accessors_, "accessors"))
                 put(kept.attributes[read.name], keep_accessor(*accessor));
         return kept;
     }
@@ -195,7 +201,7 @@ class Filter {
     const Fields &root_;
     size_t accessors_, views_, buffers_; ///< of the whole file
     Filtered filtered_;
-    std::unordered_map<uint64_t, uint32_t> primitive_places_; ///< by mesh and primitive
+    std::map<std::tuple<uint32_t, uint32_t, bool>, uint32_t> primitive_places_; ///< by mesh, primitive, smoothness
     std::map<PrimitiveKey, size_t> same_primitives_;
 };
 

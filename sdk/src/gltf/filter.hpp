@@ -35,7 +35,7 @@ struct Attribute {
     const char *name;
     size_t components;
 };
-constexpr Attribute attributes_read[] = {{"POSITION", 3}, {"TANGENT", 4}, {"TEXCOORD_0", 2}};
+constexpr Attribute attributes_read[] = {{"POSITION", 3}, {"NORMAL", 3}, {"TANGENT", 4}, {"TEXCOORD_0", 2}};
 
 } // namespace knurl::gltf
 #endif

@@ -12,7 +12,8 @@ std::vector<float> read_attribute(const Model &model, const tinygltf::Primitive 
     if (found == primitive.attributes.end())
         return {};
     const std::string place = where + ": " + name;
-    std::vector<float> values = read_floats(model, found->second, place);
+    // Exporters write NaN as the normal of a triangle without area: the scene tells bad normals.
+    std::vector<float> values = read_floats(model, found->second, place, std::string_view(name) != "NORMAL");
     if (vertices != 0 && values.size() / components != vertices)
         refuse(place, "expected one element for each of " + std::to_string(vertices) + " positions, found " +
                           std::to_string(values.size() / components));
@@ -74,6 +75,7 @@ void drop_unused_vertices(Geometry &geometry) {
     for (uint32_t &i : geometry.indices)
         i = place[i];
     keep_used(geometry.positions, 3, used);
+    keep_used(geometry.normals, 3, used);
     keep_used(geometry.tangents, 4, used);
     keep_used(geometry.uvs, 2, used);
 }
@@ -104,6 +106,7 @@ Geometry read_geometry(const Model &model, const tinygltf::Primitive &primitive,
     Geometry geometry;
     geometry.positions = read_attribute(model, primitive, "POSITION", 3, 0, where);
     const size_t vertices = geometry.positions.size() / 3;
+    geometry.normals = read_attribute(model, primitive, "NORMAL", 3, vertices, where);
     geometry.tangents = read_attribute(model, primitive, "TANGENT", 4, vertices, where);
     geometry.uvs = read_attribute(model, primitive, "TEXCOORD_0", 2, vertices, where);
     if (primitive.indices >= 0) {

@@ -9,6 +9,7 @@ namespace knurl::gltf {
 
 struct Geometry {
     std::vector<float> positions;  ///< x, y, z
+    std::vector<float> normals;    ///< x, y, z; may be empty
     std::vector<float> tangents;   ///< x, y, z, w; may be empty
     std::vector<float> uvs;        ///< u, v; may be empty
     std::vector<uint32_t> indices; ///< three a triangle; never empty

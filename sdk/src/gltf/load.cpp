@@ -68,6 +68,7 @@ knurl_mesh_desc mesh_of(const Geometry &geometry) {
     knurl_mesh_desc_init(&mesh, sizeof mesh);
     mesh.vertex_count = static_cast<uint32_t>(geometry.positions.size() / 3);
     mesh.positions = geometry.positions.data();
+    mesh.normals = geometry.normals.empty() ? nullptr : geometry.normals.data();
     mesh.tangents = geometry.tangents.empty() ? nullptr : geometry.tangents.data();
     mesh.uvs = geometry.uvs.empty() ? nullptr : geometry.uvs.data();
     mesh.indices = geometry.indices.data();

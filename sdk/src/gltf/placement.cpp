@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "placement.hpp"
 
+#include <glm/gtc/matrix_inverse.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
 #include <cmath>
@@ -143,6 +144,14 @@ void bake(Geometry &geometry, const Frame &frame, const std::string &where, int 
         const glm::dvec3 tangent = frame.bake * glm::dvec3(glm::make_vec3(&geometry.tangents[i]));
         const double length = glm::length(tangent);
         put(geometry.tangents, i, length > 0.0 ? tangent / length : tangent);
+    }
+    // Planes turn by the inverse's transpose; their sides stay. A length that is off stays off, for the scene to judge.
+    const glm::dmat3 turn = glm::inverseTranspose(frame.bake);
+    for (size_t i = 0; i + 2 < geometry.normals.size(); i += 3) {
+        const glm::dvec3 given(glm::make_vec3(&geometry.normals[i]));
+        const glm::dvec3 turned = turn * given;
+        const double length = glm::length(turned);
+        put(geometry.normals, i, length > 0.0 ? turned * (glm::length(given) / length) : given);
     }
     if (frame.mirrored)
         for (size_t i = 0; i + 2 < geometry.indices.size(); i += 3)

@@ -87,6 +87,15 @@ void read_method(Tag &tag, const Entry &entry) {
     tag.method = method;
 }
 
+void read_smooth(Tag &tag, const Entry &entry) {
+    const std::optional<double> x = entry.value.number(); // Blender's older properties have no booleans
+    tag.smooth = entry.value.flag();
+    if (x && (*x == 0.0 || *x == 1.0))
+        tag.smooth = *x == 1.0;
+    if (!tag.smooth)
+        entry.refuse("true or false");
+}
+
 struct Key {
     const char *name;
     void (*read)(Tag &, const Entry &); ///< null: one number, into `to`
@@ -106,7 +115,8 @@ constexpr Key keys[] = {{"version", read_version},
                         {"friction", nullptr, &Tag::friction, 0.0, "a number >= 0 (a Coulomb coefficient)"},
                         {"orientation", nullptr, &Tag::orientation, any_number, "a number (rad)"},
                         {"axis", read_axis},
-                        {"method", read_method}};
+                        {"method", read_method},
+                        {"smooth", read_smooth}};
 
 void read_key(Tag &tag, const Key &key, const Entry &entry) {
     if (key.read != nullptr)
@@ -148,6 +158,7 @@ void Tag::override_with(const Tag &other) {
             take(this->*key.to, other.*key.to);
     take(axis, other.axis);
     take(method, other.method);
+    take(smooth, other.smooth);
 }
 
 const char *Tag::missing_key() const {

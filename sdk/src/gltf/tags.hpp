@@ -19,6 +19,7 @@ struct Tag {
     std::optional<double> orientation;
     std::optional<std::array<double, 3>> axis; ///< object space, not 0
     std::optional<int32_t> method;
+    std::optional<bool> smooth; ///< false: felt as its triangles, whatever its normals
 
     /** Replaces each key that `other` has. */
     void override_with(const Tag &other);

@@ -215,6 +215,20 @@ static void check_winding(const inspection *on, const knurl_surface_data *surfac
     }
 }
 
+static void check_normals(const inspection *on, const knurl_surface_data *surface) {
+    char sentence[256];
+    knurl_shape_facts facts;
+    knurl_shape_get_facts(&surface->shape, &facts);
+    if (facts.bad_normals > 0) {
+        (void)knurl_format(
+            sentence, sizeof sentence,
+            "%u of its %u triangles are felt flat, because their normals are not of unit length, more than "
+            "60 degrees off the triangle, or fold the surface",
+            (unsigned)facts.bad_normals, (unsigned)facts.triangle_count);
+        say(on, KNURL_LIMIT_NORMALS, sentence, "recalculate the normals in the editor");
+    }
+}
+
 static void inspect(const knurl_scene *scene, const knurl_hip *hip, const knurl_surface_data *surface,
                     knurl_surface_check *check) {
     const knurl_material_desc *m = &surface->record->material;
@@ -238,6 +252,7 @@ static void inspect(const knurl_scene *scene, const knurl_hip *hip, const knurl_
     check_visits(&on, surface, hip->contacts.max_visits);
     check_crowd(&on, scene, surface);
     check_winding(&on, surface);
+    check_normals(&on, surface);
     if (!surface->record->is_smooth) {
         check_texture(&on, wall.stiffness);
         check_stretch(&on, surface);

@@ -15,6 +15,7 @@ const KEYS: Array[String] = [
 	"orientation",
 	"axis",
 	"method",
+	"smooth",
 ]
 const REQUIRED: Array[String] = ["spatial_frequency", "amplitude", "stiffness"]
 const FLAT_PREFIX := "knurl_"
@@ -126,6 +127,11 @@ func _read_entry(tag: Tag, prefix: String, key: String, value: Variant) -> void:
 				tag.values[key] = METHODS[value]
 			else:
 				_refuse_value(at, "'S1', 'S2' or 'bandlimited'", value)
+		"smooth":
+			if value is bool or (_is_number(value) and (value == 0 or value == 1)):
+				tag.values[key] = bool(value)
+			else:
+				_refuse_value(at, "true or false", value)
 		_:
 			_refuse(
 				at,

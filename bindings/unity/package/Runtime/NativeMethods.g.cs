@@ -632,7 +632,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "8826c06838863606";
+        internal const string Interface = "5db8598e8978d14b";
 
         internal const string Version = "0.3.0";
 
@@ -800,6 +800,7 @@ namespace Knurl
         internal const int KNURL_LIMIT_FAR = 64;
         internal const int KNURL_LIMIT_VISITS = 128;
         internal const int KNURL_LIMIT_WINDING = 256;
+        internal const int KNURL_LIMIT_NORMALS = 512;
         internal const int KNURL_LIMIT_STRETCH = 32;
         internal const int KNURL_SESSION_CONTACT_STARTED = 1;
         internal const int KNURL_SESSION_CONTACT_ENDED = 2;
