@@ -2,6 +2,7 @@
 import atexit
 import glob
 import os
+import threading
 import weakref
 from typing import Any, Dict, Iterable, NoReturn, TypeVar
 
@@ -114,6 +115,7 @@ def to_python(value: Any) -> Any:
 
 Self = TypeVar("Self", bound="Owner")
 _open: "weakref.WeakSet[Owner]" = weakref.WeakSet()
+_open_lock = threading.RLock() # iterating over a set fails if another thread adds to it
 
 
 class Owner:
@@ -127,7 +129,8 @@ class Owner:
     def _own(self, pointer: Any, release: Any) -> None:
         # Each call holds its own reference to the pointer, and the last one releases it.
         self._handle = ffi.gc(pointer, release)
-        _open.add(self)
+        with _open_lock:
+            _open.add(self)
 
     @property
     def handle(self) -> Any:
@@ -153,7 +156,9 @@ class Owner:
 
 
 def open_objects(kind: type) -> Iterable[Any]:
-    return [owner for owner in list(_open) if isinstance(owner, kind) and not owner.closed]
+    with _open_lock:
+        owners = list(_open)
+    return [owner for owner in owners if isinstance(owner, kind) and not owner.closed]
 
 
 @atexit.register
