@@ -3,7 +3,6 @@
  */
 #include "support/close.h"
 
-#include "base/system.h"
 #include "device/falcon/frame.h"
 
 /* A frame from the device, written out by hand in libnifalcon's order. */
@@ -127,29 +126,4 @@ TEST(a_byte_that_is_lost_or_doubled_is_seen) {
         assert_int_equal(feed(&doubled, FRAME_B), 1);
         assert_int_equal(doubled.bad_bytes, whole ? 1 : 17);
     }
-}
-
-TEST(times_are_printed) {
-    knurl_falcon_decoder d = {0};
-    int64_t best[2] = {INT64_MAX, INT64_MAX};
-    uint8_t frame[16];
-    uint32_t frames = 0;
-    for (int round = 0; round < 50; round++) {
-        const int64_t begin = knurl_system_now_ns();
-        for (int16_t i = 0; i < 1000; i++) {
-            const int16_t motors[3] = {i, (int16_t)-i, 7};
-            knurl_falcon_encode(motors, KNURL_FALCON_GREEN, frame);
-            frames += frame[1] == 'A';
-        }
-        const int64_t middle = knurl_system_now_ns();
-        for (int i = 0; i < 1000; i++) {
-            frames += feed(&d, FRAME_B);
-        }
-        const int64_t end = knurl_system_now_ns();
-        best[0] = middle - begin < best[0] ? middle - begin : best[0];
-        best[1] = end - middle < best[1] ? end - middle : best[1];
-    }
-    print_message("encoding: %.0f ns, decoding: %.0f ns a frame (best of 50)\n", (double)best[0] / 1000.0,
-                  (double)best[1] / 1000.0);
-    assert_true(frames >= 50000);
 }

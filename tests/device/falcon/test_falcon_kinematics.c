@@ -5,17 +5,9 @@
 #include "device/falcon/kinematics.h"
 #include "falcon_sim.h"
 
-#include "base/system.h"
-
 #include <stdlib.h>
 
 #define W KNURL_FALCON_WORKSPACE
-
-static int by_size(const void *a, const void *b) {
-    const double x = *(const double *)a;
-    const double y = *(const double *)b;
-    return (x > y) - (x < y);
-}
 
 /* Position `n` of a grid of 41 a side over the workspace, its edges included. */
 #define GRID 41
@@ -227,52 +219,4 @@ TEST(forward_gives_a_true_answer_or_none) {
     }
     print_message("%d of 200000 random triples of angles are poses\n", found);
     assert_true(found > 1000);
-}
-
-TEST(times_are_printed) {
-    static double times[3][200];
-    static double angles[1000][3];
-    static double there[1000][3];
-    uint64_t seed = 19;
-    for (int i = 0; i < 1000; i++) { /* a stroke: 0.1 mm a step */
-        const double t = 1e-4 * i;
-        const double at[3] = {-0.035 + 0.7 * t, 0.02 * sin(50.0 * t), random_between(&seed, -1e-4, 1e-4)};
-        memcpy(there[i], at, sizeof at);
-        assert_true(knurl_falcon_inverse(at, angles[i]));
-    }
-    double sum = 0.0;
-    for (int round = 0; round < 200; round++) {
-        double position[3] = {-0.035, 0.0, 0.0};
-        double theta[3];
-        int16_t motors[3];
-        int64_t stamps[4];
-        stamps[0] = knurl_system_now_ns();
-        for (int i = 0; i < 1000; i++) {
-            (void)knurl_falcon_forward(angles[i], position);
-        }
-        stamps[1] = knurl_system_now_ns();
-        for (int i = 0; i < 1000; i++) {
-            (void)knurl_falcon_inverse(there[i], theta);
-            sum += theta[0];
-        }
-        stamps[2] = knurl_system_now_ns();
-        for (int i = 0; i < 1000; i++) {
-            (void)knurl_falcon_motors(there[i], angles[i], there[i], motors);
-            sum += motors[0];
-        }
-        stamps[3] = knurl_system_now_ns();
-        for (int what = 0; what < 3; what++) {
-            times[what][round] = (double)(stamps[what + 1] - stamps[what]) / 1000.0;
-        }
-        sum += position[0];
-    }
-    for (int what = 0; what < 3; what++) {
-        qsort(times[what], 200, sizeof(double), by_size);
-        print_message("%s: median %.0f ns\n",
-                      what == 0   ? "forward"
-                      : what == 1 ? "inverse"
-                                  : "motors",
-                      times[what][100]);
-    }
-    assert_true(isfinite(sum));
 }

@@ -1,8 +1,7 @@
 /* The arm of a WoodenHaptics: against poses that can be drawn, differences, virtual work, and the simulation's own
- * kinematics. KNURL_TIMES=1 prints how long they take. SPDX-License-Identifier: MIT */
+ * kinematics. SPDX-License-Identifier: MIT */
 #include "support/close.h"
 
-#include "base/system.h"
 #include "base/vec3.h"
 #include "device/rawhid/geometry.h"
 #include "device/rawhid/hid_sim.h"
@@ -264,41 +263,6 @@ TEST(a_force_that_is_no_number_gives_no_current) {
 TEST(the_resolution_is_what_the_worst_axis_moves_when_all_encoders_step) {
     const double elbow = sqrt(0.205 * 0.205 - 0.0690909 * 0.0690909);
     CHECK_CLOSE(knurl_rawhid_resolution(&arm), 2.0 * elbow * 2.0 * PI / 2000.0 / 12.0, 1e-9);
-}
-
-static volatile double sink;
-
-TEST(times_are_printed_where_they_are_asked_for) {
-    enum { COUNT = 200000 };
-    if (!getenv("KNURL_TIMES")) {
-        skip();
-    }
-    const double force[3] = {1.0, -0.5, 0.3};
-    double best[2] = {1e9, 1e9};
-    for (int round = 0; round < 7; round++) {
-        int64_t times[3];
-        double position[3];
-        double angles[3];
-        int16_t ma[3];
-        times[0] = knurl_system_now_ns();
-        for (int i = 0; i < COUNT; i++) {
-            const int16_t counts[3] = {(int16_t)(i % 1000), (int16_t)(1000 + i % 500), (int16_t)(2000 + i % 700)};
-            knurl_rawhid_angles(&arm, counts, angles);
-            knurl_rawhid_position(&arm, angles, position);
-            sink = position[0];
-        }
-        times[1] = knurl_system_now_ns();
-        for (int i = 0; i < COUNT; i++) {
-            angles[0] = 1e-6 * i;
-            knurl_rawhid_currents(&arm, angles, force, ma);
-            sink = ma[0];
-        }
-        times[2] = knurl_system_now_ns();
-        for (int k = 0; k < 2; k++) {
-            best[k] = fmin(best[k], (double)(times[k + 1] - times[k]) / COUNT);
-        }
-    }
-    print_message("counts to position: %.0f ns; force to currents: %.0f ns (best of 7)\n", best[0], best[1]);
 }
 
 SUITE_FIXTURES(set_up, NULL)

@@ -118,20 +118,11 @@ TEST_WITH(a_force_moves_the_hand_its_way_and_closing_ends_it, set_up, tear_down)
     plug(0xffab, 64);
     knurl_device *device = open_device();
     assert_true(tick_device_until(device, KNURL_OK, none, 5.0, &sample));
-    const int64_t start = knurl_system_now_ns();
-    knurl_device_status status = device_status(device);
-    const uint64_t before = status.exchanges;
     int tries = 0;
     do {
         hold(device, force, 1.0);
     } while (!has_followed(device, force) && ++tries < 15);
     assert_true(tries < 15);
-    status = device_status(device);
-    if (getenv("KNURL_TIMES")) {
-        print_message("%.0f exchanges/s, median %.0f us, 99 %% within %.0f us\n",
-                      (double)(status.exchanges - before) / (1e-9 * (double)(knurl_system_now_ns() - start)),
-                      1e-3 * status.exchange_ns_p50, 1e-3 * status.exchange_ns_p99);
-    }
     knurl_device_close(device);
     sleep_s(0.02);
     assert_true(limp_since() >= 0.0);
