@@ -92,31 +92,18 @@ TEST_WITH(the_sessions_update_lies_between_the_marks, open_plugin, close_plugin)
     p.UnityPluginUnload();
 }
 
-TEST_WITH(without_a_profiler_an_update_is_just_an_update, open_plugin, close_plugin) {
-    engine.without_profiler = 1;
-    p.UnityPluginLoad(&engine_interfaces);
-    update_once();
-    assert_int_equal(engine.markers, 0);
-    assert_int_equal(engine.event_count, 0);
-    p.UnityPluginUnload();
-}
-
-TEST_WITH(a_game_that_was_built_without_the_profiler_is_left_alone, open_plugin, close_plugin) {
-    engine.unavailable = 1;
-    p.UnityPluginLoad(&engine_interfaces);
-    update_once();
-    assert_int_equal(engine.markers, 0);
-    assert_int_equal(engine.event_count, 0);
-    p.UnityPluginUnload();
-}
-
-TEST_WITH(a_marker_that_could_not_be_made_is_not_used, open_plugin, close_plugin) {
-    engine.refuses_markers = 1;
-    p.UnityPluginLoad(&engine_interfaces);
-    update_once();
-    assert_int_equal(engine.markers, 1);
-    assert_int_equal(engine.event_count, 0);
-    p.UnityPluginUnload();
+/* No profiler, a game that was built without it, and a marker that could not be made. */
+TEST_WITH(without_a_marker_an_update_is_just_an_update, open_plugin, close_plugin) {
+    int *const lacks[] = {&engine.without_profiler, &engine.unavailable, &engine.refuses_markers};
+    for (size_t i = 0; i < COUNT_OF(lacks); i++) {
+        *lacks[i] = 1;
+        p.UnityPluginLoad(&engine_interfaces);
+        update_once();
+        assert_int_equal(engine.markers, lacks[i] == &engine.refuses_markers);
+        assert_int_equal(engine.event_count, 0);
+        p.UnityPluginUnload();
+        *lacks[i] = 0;
+    }
 }
 
 /* --- calls out of turn --- */
