@@ -1,4 +1,4 @@
-# Part of ./run: ./run test, soak and fuzz.
+# Part of ./run: ./run test, soak, fuzz and mutants.
 
 LABELS='base vibration grating motion contact scene audio loop device gltf tool docs bindings fidelity stability realtime clock threads'
 LABELS+=' windows godot unity abi package python web'
@@ -250,4 +250,12 @@ fuzz_in_tests() {
         return 0
     fi
     fuzz 5
+}
+
+# usage: mutants [ROOM] [COUNT] [--seed SEED] [--again]
+mutants() {
+    need_packages "${BUILD_PACKAGES[@]}" git
+    need_python mirror-venv bindings/unity/native/requirements.txt # libclang
+    configure release # for the options that each source is compiled with
+    build/mirror-venv/bin/python -B tests/mutants/mutants.py "$@"
 }
