@@ -3,6 +3,7 @@
 numbers in grating.h. SPDX-License-Identifier: MIT
 
     methods.py              every list
+    methods.py --write      adds the methods that a list lacks, with their sentences in grating.h
     methods.py --self-test  a list that lacks a method, or has one by another name or number, is found"""
 import json
 import os
@@ -127,6 +128,58 @@ LISTS = {
 }
 
 
+def sentences():
+    """{name in capitals: what grating.h says of the method}."""
+    comment = re.search(r"/\*\* The spatial methods\.(.*?)\*/", read("sdk/include/knurl/grating.h"), re.DOTALL)[1]
+    found = re.findall(r"- (\w+)[^:]*: (.*?)(?= - |$)", " ".join(re.sub(r"\n \*", "", comment).split()))
+    return {name: text[0].upper() + text[1:] for name, text in found}
+
+
+def after_last(pattern, text, lines):
+    """Puts lines behind the last match of a pattern."""
+    at = list(re.finditer(pattern, text))[-1].end()
+    return text[:at] + "".join(lines) + text[at:]
+
+
+def completed(path, text, known, fresh, default):
+    """A list's text with the methods of `fresh`, {number: name}, behind those that it has."""
+    says, names = sentences(), list(known.values())
+    last, former = max(known), [name for number, name in known.items() if number not in fresh]
+    marked = [[f"`{n}`" + (" (default)" if n == known[default] else "") for n in some] for some in (former, names)]
+    text = text.replace(any_of(marked[0], ""), any_of(marked[1], ""))
+    for quote in ("'", "", "`"):
+        text = text.replace(any_of(former, quote), any_of(names, quote))
+    text = text.replace("|".join(former), "|".join(names))
+    text = text.replace(", ".join(f'"{n}"' for n in former), ", ".join(f'"{n}"' for n in names))
+    text = text.replace(",".join(map(title, former)) + '"', ",".join(map(title, names)) + '"')
+    rows = {
+        "bindings/godot/addons/knurl/tags.gd": (r'"\w+": \d+(?=\})', lambda n, m: f', "{m}": {n}'),
+        "bindings/godot/doc_classes/KnurlGrating.xml": (r'\n\t\t<constant [^\n]*enum="Method">[^\n]*', lambda n, m:
+            f'\n\t\t<constant name="METHOD_{m.upper()}" value="{n}" enum="Method">{says[m.upper()]}</constant>'),
+        "bindings/godot/src/grating.c": (r'\n    \{"Method", [^\n]*', lambda n, m:
+            f'\n    {{"Method", "METHOD_{m.upper()}", KNURL_METHOD_{m.upper()}}},'),
+        "bindings/unity/package/Runtime/GratingMethod.cs": (r" = \d+(?=\n)", lambda n, m:
+            f",\n\n        /// <summary>{says[m.upper()]}</summary>\n        {title(m)} = {n}"),
+        "samples/web/index.html": (r'<option value="\d">(?:S\d|bandlimited)</option>(?=\n    </select>)', lambda n, m:
+            f'\n      <option value="{n}">{m}</option>'),
+    }
+    if path in rows:
+        text = after_last(rows[path][0], text, [rows[path][1](n, m) for n, m in fresh.items()])
+    return re.sub(r'(\{"method", [^{}]*?, 0\.0, )\d+(\.0, 1\.0, ")', rf"\g<1>{last}\g<2>", text)
+
+
+def write(known, default):
+    """Completes every list that lacks methods at its end."""
+    for path in LISTS:
+        for count in range(1, len(known)):
+            fresh = dict(list(known.items())[-count:])
+            if check(path, known, default):
+                text = completed(path, read(path), known, fresh, default)
+                if LISTS[path](text, known, default)[0] == LISTS[path](text, known, default)[1]:
+                    with open(os.path.join(ROOT, path), "w", encoding="utf-8") as file:
+                        file.write(text)
+
+
 def check(path, known, default):
     """None, or what is wrong with a file's list."""
     try:
@@ -148,6 +201,8 @@ def self_test():
 
 
 def main(arguments):
+    if "--write" in arguments:
+        write(*methods())
     wrong = self_test() if "--self-test" in arguments else [line for path in LISTS if (line := check(path, *methods()))]
     for line in wrong:
         print("methods:", line, file=sys.stderr)

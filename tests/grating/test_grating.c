@@ -394,7 +394,7 @@ TEST(names_of_methods_go_both_ways) {
     }
     assert_null(knurl_method_name(KNURL_METHOD_DEFAULT));
     assert_null(knurl_method_name(-1));
-    assert_null(knurl_method_name(4));
+    assert_null(knurl_method_name(1000));
 }
 
 TEST(unknown_names_are_refused_with_the_known_ones) {
@@ -402,8 +402,9 @@ TEST(unknown_names_are_refused_with_the_known_ones) {
     int32_t method = 77;
     for (size_t i = 0; i < COUNT_OF(names); i++) {
         CHECK_REFUSED(knurl_method_from_name(names[i], &method), KNURL_ERROR_UNKNOWN, method);
-        char expected[80];
-        (void)snprintf(expected, sizeof expected, "method: expected S1, S2 or bandlimited, found '%s'", names[i]);
-        assert_string_equal(knurl_error_message(), expected);
+        char found[32];
+        (void)snprintf(found, sizeof found, ", found '%s'", names[i]);
+        check_message("method: expected S1, S2");
+        check_message(found);
     }
 }

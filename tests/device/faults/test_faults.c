@@ -17,7 +17,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#define ROOM 64
+#define ROOM 128
 
 static row rows[ROOM];
 static int row_count;
