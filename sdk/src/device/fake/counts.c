@@ -9,10 +9,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define FINEST       2e-7 /* m: a finer quantum is taken as exact: its false speed is 0.2 mm/s at 1 kHz */
-#define DIGITS_MAX   9    /* decimals of a metre; more are taken as exact */
-#define VALUES_LEAST 12 /* different values of an axis. Three in five integers lie within a lattice of 2.5, by chance  \
-                         */
+#define FINEST     2e-7 /* m: a finer quantum is taken as exact: its false speed is 0.2 mm/s at 1 kHz */
+#define DIGITS_MAX 9    /* decimals of a metre; more are taken as exact */
+#define VALUES_LEAST                                                                                                   \
+    12 /* different values of an axis. Three in five integers lie within a lattice of 2.5, by chance                   \
+        */
 #define SINGLES_LEAST                                                                                                  \
     8               /* steps of one count more or less than both neighbours; no smooth trace that was tried has any */
 #define GAP_MOST 40 /* counts in the shortest gap between two values */
