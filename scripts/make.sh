@@ -44,7 +44,7 @@ figures() {
     picture sweep plot.py build/study/sweep.csv
     title=
     picture sound sound.py build/study/sweep.{csv,wav}
-    for name in signals coverage temporal device gratings preferences tradeoff velocity transitions stability failures; do
+    for name in signals coverage temporal device gratings preferences tradeoff velocity transitions smooth stability failures; do
         echo "run: study $name"
         build/release/knurl study "$name" --out build/study
         picture "$name" figures.py "build/study/$name".{json,csv}
@@ -58,7 +58,7 @@ figures() {
         echo 'run: the pictures show what the code does'
         return 0
     fi
-    /usr/bin/python3 samples/study/dark.py "$out"/{sweep,stability,speed_accuracy}.png # those of README.md and docs/
+    /usr/bin/python3 samples/study/dark.py "$out"/{sweep,stability,speed_accuracy,smooth}.png # those of README.md and docs/
     [ "$how" != --update ] || cp build/study/failures.md samples/study/failures.md
     echo "run: the numbers are in build/study, the pictures and what they were drawn from in $out"
 }

@@ -101,7 +101,7 @@ static const help_command commands[] = {
      "compute the numbers of a figure or chart",
      {{"--out", "DIR", "writes NAME.csv and NAME.json there; samples/study/figures.py draws them"}},
      "Names: signals, coverage, temporal, device, gratings, preferences, tradeoff, velocity, tracking, half_cycles,\n"
-     "transitions, failures, stability.",
+     "transitions, smooth, failures, stability.",
      NULL},
     {"bench",
      "",

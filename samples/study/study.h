@@ -27,6 +27,7 @@ int study_tradeoff(const char *folder);    /* cost against accuracy */
 int study_tracking(const char *folder);    /* a position in counts, tracked in two ways; prints its table */
 int study_velocity(const char *folder);    /* the velocity estimators: what chooses the default */
 int study_half_cycles(const char *folder); /* every half cycle's impulse, on facets too; prints its table */
+int study_smooth(const char *folder);      /* a ring's triangles against its normals; prints its table */
 int study_transitions(const char *folder); /* turns, stops, lift-off, changes in an event; prints its table */
 int study_failures(const char *folder);    /* where methods fail; writes failures.md too */
 int study_stability(const char *folder);   /* where walls and gratings run away; prints its checks */
