@@ -20,6 +20,9 @@
  * face's normal, is below this share of the triangle's. Tested at ten points. */
 #define FOLD_SHARE 0.1
 
+/* Within 10 degrees of the face, normals move a patch sideways by 1 % of its edges at most: not tested. */
+#define FOLD_COSINE 0.985
+
 static uint32_t pack_number(double x) {
     return (uint32_t)(uint16_t)(int16_t)lrint(x * 32767.0);
 }
@@ -119,7 +122,7 @@ static int judge(const double corners[3][3], const double normals[3][3], double 
     if (least >= FLAT_COSINE && *height <= FLAT_HEIGHT) {
         return FLAT;
     }
-    return least >= BAD_COSINE && !folds(&patch, face, area2) ? CURVED : BAD;
+    return least >= FOLD_COSINE || (least >= BAD_COSINE && !folds(&patch, face, area2)) ? CURVED : BAD;
 }
 
 void knurl_mesh_settle_normals(knurl_heap *heap, knurl_mesh *mesh) {

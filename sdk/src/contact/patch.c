@@ -1,6 +1,7 @@
 /* PN triangles. SPDX-License-Identifier: MIT */
 #include "contact/patch.h"
 
+#include "base/base.h"
 #include "base/vec3.h"
 
 /* Below a convex surface, near its centre of curvature, the felt point is undefined. Steps are then computed for a
@@ -38,13 +39,11 @@ static void find_point(const knurl_patch *p, const double w[3], double point[3],
     }
 }
 
-/* Twice the area of the patch per change of both weights, at height z; sets the tangents there. */
-static double find_tangents(const double changes[2][3], const double turns[2][3], double z, knurl_patch_point *at) {
+/* The tangents at height z. Returns twice the patch's area there per change of both weights. */
+static double find_tangents(const double changes[3][3], const double turns[2][3], double z, knurl_patch_point *at) {
     double across[3];
-    for (int i = 0; i < 2; i++) {
-        vec3_madd(changes[i], z, turns[i], at->tangents[i]);
-        vec3_make_tangent(at->normal, at->tangents[i]);
-    }
+    vec3_madd(changes[1], z, turns[0], at->tangents[0]);
+    vec3_madd(changes[2], z, turns[1], at->tangents[1]);
     vec3_cross(at->tangents[0], at->tangents[1], across);
     return vec3_dot(across, at->normal);
 }
@@ -64,11 +63,14 @@ void knurl_patch_at(const knurl_patch *p, const double w[3], const double hip[3]
     vec3_sub(hip, at->point, off);
     at->z = vec3_dot(off, at->normal);
     vec3_madd(off, -at->z, at->normal, at->beside);
-    const double area = find_tangents((const double (*)[3])(changes + 1), (const double (*)[3])turns, 0.0, at);
-    const double share =
-        find_tangents((const double (*)[3])(changes + 1), (const double (*)[3])turns, at->z, at) / area;
-    if (share < SHARE_MIN) {
+    double across[3];
+    vec3_cross(changes[1], changes[2], across);
+    const double share = find_tangents((const double (*)[3])changes, (const double (*)[3])turns, at->z, at) /
+                         vec3_dot(across, at->normal);
+    if (KNURL_UNLIKELY(share < SHARE_MIN)) {
         const double less = (1.0 - SHARE_MIN) / (1.0 - share);
-        (void)find_tangents((const double (*)[3])(changes + 1), (const double (*)[3])turns, less * at->z, at);
+        (void)find_tangents((const double (*)[3])changes, (const double (*)[3])turns, less * at->z, at);
     }
+    vec3_make_tangent(at->normal, at->tangents[0]);
+    vec3_make_tangent(at->normal, at->tangents[1]);
 }
