@@ -66,6 +66,9 @@ static void print_surface(json_writer *json, const knurl_surface_info *info, con
     json_number(json, "bulge", info->bulge);
     json_flag(json, "in_reach", reachable);
     json_flag(json, "double_sided", info->double_sided != 0);
+    json_string(json, "coordinates", info->coordinates);
+    json_number(json, "uneven", info->uneven);
+    json_number(json, "projection_seams", info->projection_seams);
     print_material(json, material);
     print_stretch(json, "stretch", info->stretch);
     print_stretch(json, "stretch_y", info->stretch_y);

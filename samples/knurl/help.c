@@ -43,7 +43,8 @@ static const help_command commands[] = {
       BUDGET,
       {"--check", "", "exit with 3 if a surface exceeds a Touch's limits, is stretched, or is out of its reach"}},
      "JSON: surfaces [{name, shape, model, triangles, dropped_triangles, reversed_twins, turned_triangles, bytes, why,\n"
-     "model_error, seam, touching_pairs, curved_triangles, bad_normals, bulge, in_reach, double_sided, material, stretch,\n"
+     "model_error, seam, touching_pairs, curved_triangles, bad_normals, bulge, in_reach, double_sided, coordinates, uneven,\n"
+     "projection_seams, material, stretch,\n"
      "stretch_y}], skipped, bytes, hint.",
      NULL},
     {"run",

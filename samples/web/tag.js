@@ -25,13 +25,12 @@ export function nodesWithMesh(buffer) {
     .filter(({ index }) => json.meshes?.[nodes[index]?.mesh]);
 }
 
-// A copy in which the node holds the tag, instead of what it held; a mesh without coordinates needs an axis.
+// A copy in which the node holds the tag, instead of what it held.
 export function withTag(buffer, index, tag) {
   const { json, rest } = parse(buffer);
   const node = json.nodes[index];
-  const bare = json.meshes[node.mesh].primitives.some(({ attributes }) => !attributes.TEXCOORD_0 && !attributes.TANGENT);
   const others = Object.entries(node.extras ?? {}).filter(([key]) => !key.startsWith("knurl"));
-  const axis = node.extras?.knurl?.axis ?? node.extras?.knurl_axis ?? (bare ? [1, 0, 0] : undefined);
+  const axis = node.extras?.knurl?.axis ?? node.extras?.knurl_axis;
   node.extras = { ...Object.fromEntries(others), knurl: { ...tag, axis } };
   const text = new TextEncoder().encode(JSON.stringify(json));
   const padded = Math.ceil(text.length / 4) * 4;

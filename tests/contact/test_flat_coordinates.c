@@ -62,11 +62,37 @@ TEST(axis_along_the_normal_keeps_a_mesh) {
     check_stays(&s, upright, "mesh: its x direction is perpendicular to it", __LINE__);
 }
 
-TEST(mesh_without_axis_tangents_or_uvs_stays_one) {
+/* A sheet that faces away from y = 0.6 z: nearest to -z, from where u runs along -x and v along y. */
+TEST(without_axis_tangents_and_uvs_coordinates_are_projected_along_the_nearest_axis) {
     shape s = DRAWING("####", "####");
     free(s.uvs);
     s.uvs = NULL;
-    CHECK_STAYS(&s, "mesh: no axis, tangents or uvs to give its x direction");
+    for (uint32_t v = 0; v < s.vertex_count; v++) {
+        const float y = s.positions[3 * v + 1];
+        s.positions[3 * v] = -s.positions[3 * v];
+        s.positions[3 * v + 1] = 0.75F * y;
+        s.positions[3 * v + 2] = -0.5F * y;
+    }
+    outcome o = decide(&s);
+    assert_non_null(o.plane);
+    for (uint32_t v = 0; v < s.vertex_count; v++) {
+        double p[3], q[2];
+        shape_get(&s, v, p);
+        for (int i = 0; i < 2; i++) { /* in the plane's axes, the columns of its rotation */
+            q[i] = 0.0;
+            for (int k = 0; k < 3; k++) {
+                q[i] += o.rotation[3 * k + i] * (p[k] - o.position[k]);
+            }
+        }
+        CHECK_CLOSE(o.plane->map[0][0] * q[0] + o.plane->map[0][1] * q[1] + o.plane->map[0][2], -p[0], 1e-8);
+        CHECK_CLOSE(o.plane->map[1][0] * q[0] + o.plane->map[1][1] * q[1] + o.plane->map[1][2], p[1], 1e-8);
+    }
+    CHECK_CLOSE(o.plane->x[0], 1.0, 0.0);
+    CHECK_CLOSE(o.rotation[0], -1.0, 1e-6); /* x runs along u */
+    CHECK_CLOSE(o.plane->stretch[0][1], 1.0, 1e-6);
+    CHECK_CLOSE(o.plane->stretch[1][1], 0.75 / sqrt(0.75 * 0.75 + 0.25), 1e-6);
+    forget(&o);
+    shape_free(&s);
 }
 
 TEST(axis_gives_metres_from_the_meshs_origin) {

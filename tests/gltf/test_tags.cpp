@@ -122,6 +122,9 @@ TEST(wrong_values_name_key_expected_and_found) {
                          {bars, "knurl.spatial_frequency: expected a number >= 0 or an array of 2", "found "});
     for (const char *value : {"1", "[1,0]", "[0,0,0]", "[1,0,0,0]", "[1,0,\"z\"]"})
         assert_tag_fails(with(R"("axis":)" + std::string(value)), {bars, "knurl.axis: expected an array of 3 numbers"});
+    for (const char *value : {"1", "\"uvs\"", "[\"box\"]", "null"})
+        assert_tag_fails(with(R"("coordinates":)" + std::string(value)),
+                         {bars, "knurl.coordinates: expected 'auto' or 'box', found "});
     assert_tag_fails(with(R"("method":"S3")"),
                      {bars, "knurl.method: expected 'S1', "});
     assert_tag_fails(with(R"("method":2)"), {bars, "knurl.method: expected a string", "found 2"});
@@ -138,7 +141,7 @@ TEST(flat_keys_are_named_as_they_stand) {
 TEST(form_of_the_tag_is_checked) {
     assert_tag_fails(with(R"("stifness":1)"),
                      {"knurl.stifness: unknown key; known are knurl.version, knurl.spatial_freq",
-                      "knurl.amplitude, knurl.stiffness", "knurl.axis, knurl.method"});
+                      "knurl.amplitude, knurl.stiffness", "knurl.axis, knurl.coordinates, knurl.method"});
     assert_tag_fails(R"({"knurl":{"stiffness":1}})", {"knurl.version: missing: expected 1"});
     assert_tag_fails(R"({"knurl":{"version":2}})", {"knurl.version: expected 1", "found 2"});
     assert_tag_fails(R"({"knurl":{"version":"1"}})", {"knurl.version: expected 1", "found '1'"});
@@ -181,6 +184,26 @@ TEST(the_axis_turns_the_grating) {
     file.materials = "{" + tag(R"("axis":[0,1e-200,0])") + "}";
     assert_near(Loaded(file.glb()).info().anchor_x, {0, 1, 0});
     assert_near(Loaded(quad().glb()).info().anchor_x, {1, 0, 0}); // u runs along x
+}
+
+/// Loads a quad whose u runs along y; its projection's runs along x.
+std::string coordinates_of(const std::string &of_material, const std::string &of_node) {
+    File file = quad();
+    const int uvs = file.vec2({0, 0, 0, 1, 1, 1, 1, 0});
+    file.meshes.replace(file.meshes.find("\"TEXCOORD_0\":") + 13, 1, std::to_string(uvs));
+    file.materials = "{" + tag(of_material) + "}";
+    file.nodes = R"({"mesh":0,"extras":{"knurl":{"version":1)" + of_node + "}}}";
+    const Loaded loaded(file.glb());
+    const knurl_surface_info info = loaded.info();
+    return info.coordinates + std::string(info.anchor_x[0] > 0.999 ? " along x" : " along y");
+}
+
+TEST(a_box_leaves_uvs_out_and_of_a_box_and_an_axis_the_later_one_wins) {
+    assert_string_equal(coordinates_of("", "").c_str(), "uvs along y");
+    assert_string_equal(coordinates_of(R"("coordinates":"box")", "").c_str(), "box along x");
+    assert_string_equal(coordinates_of(R"("coordinates":"box")", R"(,"coordinates":"auto")").c_str(), "uvs along y");
+    assert_string_equal(coordinates_of(R"("axis":[0,1,0])", R"(,"coordinates":"box")").c_str(), "box along x");
+    assert_string_equal(coordinates_of(R"("coordinates":"box")", R"(,"axis":[0,1,0])").c_str(), "axis along y");
 }
 
 TEST(long_and_odd_names_keep_the_message_readable) {

@@ -84,3 +84,163 @@ TEST(more_twins_than_a_tenth_of_the_area_make_a_mesh_double_sided_and_are_told_u
         assert_int_equal((check.exceeded & KNURL_LIMIT_WINDING) != 0, counts[i][0] < 1280);
     }
 }
+
+/* --- uvs --- */
+
+#define A  0.0002 /* m */
+#define FS 1000.0 /* cycles/m */
+
+/* 0.1 x 0.1 m, 20 x 20 quads with vertices of their own, bent so that it stays a mesh; u, v from 0 to 1. */
+static double bent(double x, double y) {
+    return 0.002 * cos(30.0 * x) * cos(30.0 * y);
+}
+
+static shape plate(void) {
+    shape s = shape_sheet(20, 20, (const double[2]){0.05, 0.05}, bent);
+    shape_unweld(&s);
+    return s;
+}
+
+/* Half cycles played on a stroke of 60 mm along x. */
+static double play_60_mm(surface_parts *parts) {
+    knurl_hip_counts counts;
+    knurl_scene *scene = scene_of(parts);
+    for (int k = 0; k <= 600; k++) {
+        const double x = 0.0001 * k - 0.03, y = 0.0013;
+        (void)tick_at(scene, x, y, bent(x, y) - 0.001);
+    }
+    assert_int_equal(knurl_scene_get_tick(scene, 0, NULL, &counts), KNURL_OK);
+    knurl_scene_destroy(scene);
+    return (double)counts.half_cycles_played;
+}
+
+static surface_parts grated(const shape *s, int32_t method) {
+    surface_parts parts = surface_mesh(s);
+    set_grating(&parts, method, FS, 0.0, A);
+    return parts;
+}
+
+TEST(collapsed_uvs_do_not_change_the_scale_of_the_others) {
+    shape s = plate();
+    const uint32_t first = s.index_count * 9 / 10; /* the upper two of 20 rows, each quad a hundredth */
+    for (uint32_t i = first; i < s.index_count; i++) {
+        for (uint32_t k = 0; k < 2; k++) {
+            s.uvs[2 * i + k] = 0.5F + 0.01F * (s.uvs[2 * i + k] - 0.5F);
+        }
+    }
+    surface_parts parts = grated(&s, KNURL_METHOD_S1);
+    CHECK_CLOSE(play_60_mm(&parts), 120.0, 2.0); /* the sheet is a little longer than its shadow */
+    knurl_scene *scene = scene_of(&parts);
+    CHECK_CLOSE(info_of(scene).uneven, 0.1, 2e-3); /* by area */
+    assert_true(check_of(scene).exceeded & KNURL_LIMIT_STRETCH);
+    assert_non_null(strstr(check_of(scene).message, "of its area"));
+    knurl_scene_destroy(scene);
+    shape_free(&s);
+}
+
+TEST(uvs_of_a_palette_count_as_none_and_are_told_where_a_grating_needs_them) {
+    static const int32_t methods[] = {KNURL_METHOD_S1, KNURL_METHOD_BANDLIMITED};
+    shape s = plate();
+    for (uint32_t i = 0; i < s.index_count; i++) { /* one colour for each triangle */
+        s.uvs[2 * i] = (float)(i / 3 % 8) / 8.0F;
+        s.uvs[2 * i + 1] = 0.25F;
+    }
+    for (size_t i = 0; i < COUNT_OF(methods); i++) {
+        surface_parts parts = grated(&s, methods[i]);
+        CHECK_CLOSE(play_60_mm(&parts), 120.0, 1.0); /* x, projected */
+        knurl_scene *scene = scene_of(&parts);
+        assert_string_equal(info_of(scene).coordinates, "box, for its uvs have no area");
+        assert_true(check_of(scene).exceeded & KNURL_LIMIT_STRETCH);
+        knurl_scene_destroy(scene);
+        parts.desc.coordinates = KNURL_COORDINATES_BOX; /* asked for */
+        scene = scene_of(&parts);
+        assert_string_equal(info_of(scene).coordinates, "box");
+        assert_int_equal(check_of(scene).exceeded & KNURL_LIMIT_STRETCH, 0);
+        knurl_scene_destroy(scene);
+    }
+    surface_parts smooth = surface_mesh(&s);
+    knurl_scene *scene = scene_of(&smooth);
+    assert_int_equal(check_of(scene).exceeded & KNURL_LIMIT_STRETCH, 0);
+    knurl_scene_destroy(scene);
+    shape_free(&s);
+}
+
+/* --- box coordinates --- */
+
+/* Round the y axis, 1 mm deep in a ball, from an angle on. On each of four sides u runs over sqrt(2) times the radius,
+ * on in the same direction. */
+static void check_round_trip(const shape *ball, int32_t method, double fs, double from) {
+    const double radius = 0.03, u = 4.0 * sqrt(2.0) * radius;
+    const double pi = acos(-1.0);
+    knurl_hip_counts counts;
+    surface_parts parts = surface_mesh(ball);
+    set_grating(&parts, method, fs, 0.0, A);
+    knurl_scene *scene = scene_of(&parts);
+    for (int k = 0; k <= 2000; k++) {
+        const double angle = from + 2.0 * pi * k / 2000.0, r = radius - 0.001;
+        (void)tick_at(scene, r * sin(angle), 1e-4, r * cos(angle));
+    }
+    assert_int_equal(knurl_scene_get_tick(scene, 0, NULL, &counts), KNURL_OK);
+    CHECK_CLOSE((double)counts.half_cycles_played, 2.0 * fs * u, 2.0);
+    assert_true(info_of(scene).projection_seams > 0);
+    assert_int_equal(check_of(scene).exceeded & KNURL_LIMIT_STRETCH, 0);
+    knurl_scene_destroy(scene);
+}
+
+TEST(a_mesh_without_uvs_is_tagged_with_three_numbers_and_no_half_cycle_is_invented_at_a_seam) {
+    shape ball = shape_sphere(0.03, 5);
+    for (int i = 0; i < 12; i++) {
+        check_round_trip(&ball, i % 2 ? KNURL_METHOD_S1 : KNURL_METHOD_BANDLIMITED, 300.0 + 71.3 * i, 0.37 * i);
+    }
+    shape_free(&ball);
+}
+
+/* A box of 40 mm: from its top over an edge of 90 degrees, down a side, and back. Ridges along z on top; on the side
+ * facing +x they are upright, and none is crossed on the way down. */
+TEST(ridges_of_a_box_stand_on_each_side_as_its_axes_say) {
+    shape box = shape_box((const double[3]){0.02, 0.02, 0.02}, 0);
+    surface_parts parts = surface_mesh(&box);
+    knurl_hip_counts counts;
+    set_grating(&parts, KNURL_METHOD_S1, FS, 0.0, A);
+    knurl_scene *scene = scene_of(&parts);
+    for (int k = 0; k <= 150; k++) {
+        (void)tick_at(scene, 0.0001 * k, 0.019, 0.001);
+    }
+    assert_int_equal(knurl_scene_get_tick(scene, 0, NULL, &counts), KNURL_OK);
+    CHECK_CLOSE((double)counts.half_cycles_played, 30.0, 1.0);
+    for (int k = 0; k <= 150; k++) { /* deeper under the side than under the top: it is the side's now */
+        (void)tick_at(scene, 0.019, 0.015 - 0.0001 * k, 0.001);
+    }
+    const double on_top = (double)counts.half_cycles_played;
+    assert_int_equal(knurl_scene_get_tick(scene, 0, NULL, &counts), KNURL_OK);
+    CHECK_CLOSE((double)counts.half_cycles_played, on_top, 9.0); /* the 4 mm beside the corner, in one leap */
+    assert_int_equal(info_of(scene).projection_seams, 12);
+    knurl_scene_destroy(scene);
+    shape_free(&box);
+}
+
+TEST(a_box_takes_no_axis_and_a_shared_shape_no_coordinates) {
+    shape ball = shape_sphere(0.03, 2);
+    surface_parts parts = surface_mesh(&ball);
+    knurl_scene *scene = empty_scene(1);
+    knurl_surface_id first = 0, id = 0;
+    parts.desc.coordinates = KNURL_COORDINATES_BOX;
+    parts.desc.axis[0] = 1.0;
+    assert_int_equal(knurl_scene_add_surface(scene, surface_ready(&parts), &id), KNURL_ERROR_ARGUMENT);
+    check_message("axis: expected zeros with KNURL_COORDINATES_BOX");
+    parts.desc.axis[0] = 0.0;
+    first = add_surface(scene, &parts);
+    parts.desc.coordinates = 7;
+    assert_int_equal(knurl_scene_add_surface(scene, surface_ready(&parts), &id), KNURL_ERROR_UNKNOWN);
+    check_message("coordinates");
+    parts = surface_plane();
+    (void)surface_ready(&parts);
+    parts.desc.plane = NULL;
+    parts.desc.shape_of = first;
+    parts.desc.coordinates = KNURL_COORDINATES_BOX;
+    assert_int_equal(knurl_scene_add_surface(scene, &parts.desc, &id), KNURL_ERROR_ARGUMENT);
+    check_message("coordinates: expected KNURL_COORDINATES_AUTO");
+    assert_true(id == 0);
+    knurl_scene_destroy(scene);
+    shape_free(&ball);
+}

@@ -284,13 +284,12 @@ TEST(surface_is_exactly_one_shape_with_a_material) {
     assert_int_equal(knurl_scene_get_surface_count(scene), 0);
 }
 
-TEST(mesh_needs_a_direction_and_s1_coordinates) {
+TEST(tangents_alone_give_a_direction_but_s1_needs_coordinates) {
     float tangents[9 * 4] = {0};
     SCOPED_SHAPE sheet = shape_sheet(2, 2, (const double[2]){0.05, 0.05}, NULL);
     surface_parts parts = surface_mesh(&sheet);
     SCOPED_SCENE *scene = empty_scene(1);
     parts.mesh.uvs = NULL;
-    CHECK_ADD_REFUSED(scene, &parts, KNURL_ERROR_ARGUMENT, "axis");
     parts.mesh.tangents = tangents;
     set_grating(&parts, KNURL_METHOD_S2, 500.0, 0.0, 0.0005);
     const knurl_surface_id id = add_surface(scene, &parts); /* S2 needs a direction only */

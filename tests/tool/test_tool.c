@@ -183,7 +183,10 @@ TEST(inspect_tells_each_surface_in_one_line_of_json) {
                                        "in_reach",
                                        "double_sided",
                                        "reversed_twins",
-                                       "turned_triangles"};
+                                       "turned_triangles",
+                                       "coordinates",
+                                       "uneven",
+                                       "projection_seams"};
     SCOPED_PROCESS p = RUN_TOOL("inspect", write_plate("plate.gltf", TAG));
     check_done(&p);
     assert_int_equal(p.err[0], '\0');

@@ -53,6 +53,7 @@ knurl_result surface_put(surface *s, knurl_scene *scene, const knurl_session_pos
     desc.mesh = &mesh;
     desc.material = &material;
     desc.double_sided = s->double_sided;
+    desc.coordinates = s->box_coordinates ? KNURL_COORDINATES_BOX : KNURL_COORDINATES_AUTO;
     memcpy(desc.position, at->position, sizeof desc.position);
     memcpy(desc.rotation, at->quaternion, sizeof desc.rotation);
     for (int i = 0; i < 3; i++) { /* the axis is the mesh's: scaled like it */

@@ -193,7 +193,8 @@ class Scene(Owner):
 
     def add_mesh(self, positions: ArrayLike, indices: Optional[ArrayLike] = None, uvs: Optional[ArrayLike] = None,
                  tangents: Optional[ArrayLike] = None, material: Optional[Material] = None, **pose: Any) -> Surface:
-        """A triangle mesh: positions (n, 3), indices (m, 3) of them, uvs (n, 2), tangents (n, 4). Arrays are copied."""
+        """A triangle mesh: positions (n, 3), indices (m, 3) of them, uvs (n, 2), tangents (n, 4). Arrays are copied.
+        pose: as of a plane, and box: ridges are laid out by positions instead of by uvs."""
         mesh = described("knurl_mesh_desc")
         arrays = [_rows(positions, 3, "f4", "positions")]
         mesh.positions = ffi.from_buffer("float[]", arrays[0])
@@ -212,7 +213,7 @@ class Scene(Owner):
 
     def _add(self, kind: str, shape: Any, material: Optional[Material], name: str = "", position: ArrayLike = (0, 0, 0),
              rotation: ArrayLike = (0, 0, 0, 1), normal: ArrayLike = (0, 0, 0), axis: ArrayLike = (0, 0, 0),
-             double_sided: bool = False) -> Surface:
+             double_sided: bool = False, box: bool = False) -> Surface:
         desc = described("knurl_surface_desc")
         text, felt = ffi.new("char[]", name.encode()), (material or Material())._desc()
         desc.name, desc.material, desc.double_sided = text, felt, double_sided
@@ -221,6 +222,7 @@ class Scene(Owner):
         desc.rotation = _tuple_of(rotation, 4, "rotation")
         desc.normal = _tuple_of(normal, 3, "normal")
         desc.axis = _tuple_of(axis, 3, "axis")
+        desc.coordinates = lib.KNURL_COORDINATES_BOX if box else lib.KNURL_COORDINATES_AUTO
         surface = ffi.new("knurl_surface_id *")
         check(lib.knurl_scene_add_surface(self.handle, desc, surface))
         return Surface(self, surface[0])

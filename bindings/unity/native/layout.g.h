@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "5db8598e8978d14b"
+#define KNURL_UNITY_INTERFACE "6a4c7b3e34486beb"
 
 /** Everything mirrored, where C# expects it: STRUCT(type, bytes), FIELD(type, field, its name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
@@ -86,7 +86,7 @@
     FIELD(knurl_material_desc, damping, "damping", 40, 8) \
     FIELD(knurl_material_desc, friction, "friction", 48, 8) \
     FIELD(knurl_material_desc, orientation, "orientation", 56, 8) \
-    STRUCT(knurl_surface_desc, 152) \
+    STRUCT(knurl_surface_desc, 160) \
     FIELD(knurl_surface_desc, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_surface_desc, double_sided, "double_sided", 4, 4) \
     FIELD(knurl_surface_desc, name, "name", 8, 8) \
@@ -98,6 +98,8 @@
     FIELD(knurl_surface_desc, normal, "normal", 96, 24) \
     FIELD(knurl_surface_desc, axis, "axis", 120, 24) \
     FIELD(knurl_surface_desc, shape_of, "shape_of", 144, 8) \
+    FIELD(knurl_surface_desc, coordinates, "coordinates", 152, 4) \
+    FIELD(knurl_surface_desc, reserved, "reserved", 156, 4) \
     STRUCT(knurl_scene_desc, 24) \
     FIELD(knurl_scene_desc, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_scene_desc, max_surfaces, "max_surfaces", 4, 4) \
@@ -304,7 +306,7 @@
     FIELD(knurl_loop_stats, absences, "absences", 104, 8) \
     FIELD(knurl_loop_stats, absent, "absent", 112, 4) \
     FIELD(knurl_loop_stats, paused, "paused", 116, 4) \
-    STRUCT(knurl_surface_info, 328) \
+    STRUCT(knurl_surface_info, 352) \
     FIELD(knurl_surface_info, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_surface_info, triangle_count, "triangle_count", 4, 4) \
     FIELD(knurl_surface_info, dropped_triangles, "dropped_triangles", 8, 4) \
@@ -331,6 +333,10 @@
     FIELD(knurl_surface_info, curved_triangles, "curved_triangles", 312, 4) \
     FIELD(knurl_surface_info, bad_normals, "bad_normals", 316, 4) \
     FIELD(knurl_surface_info, bulge, "bulge", 320, 8) \
+    FIELD(knurl_surface_info, coordinates, "coordinates", 328, 8) \
+    FIELD(knurl_surface_info, uneven, "uneven", 336, 8) \
+    FIELD(knurl_surface_info, projection_seams, "projection_seams", 344, 4) \
+    FIELD(knurl_surface_info, reserved, "reserved", 348, 4) \
     STRUCT(knurl_surface_point, 72) \
     FIELD(knurl_surface_point, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_surface_point, reserved, "reserved", 4, 4) \

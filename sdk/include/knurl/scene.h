@@ -37,6 +37,16 @@ typedef struct knurl_material_desc {
 /** Fills in defaults; `size` is the caller's sizeof. [any thread] */
 KNURL_API void knurl_material_desc_init(knurl_material_desc *desc, uint32_t size);
 
+/** Where a mesh's surface coordinates come from, which say where its ridges are. */
+enum {
+    KNURL_COORDINATES_AUTO = 0, /**< from the axis; else from uvs and tangents; else as BOX. Uvs that have an area on
+                                   less than half of the mesh's (a palette's) count as none */
+    KNURL_COORDINATES_BOX = 1   /**< positions in the surface's frame, m, each triangle's projected along the axis that
+                                   its normal is closest to. Seen from the front, u runs to the right and v up (+y) on
+                                   the four sides; on top and bottom u is +x. At the seams between the sides the phase
+                                   of the ridges goes on from where it is */
+};
+
 /** A surface: a plane or a mesh, its pose and its material. All data behind pointers is copied. */
 typedef struct knurl_surface_desc {
     uint32_t struct_size;                /**< set by knurl_surface_desc_init() */
@@ -52,10 +62,12 @@ typedef struct knurl_surface_desc {
                                     shortest way, to -z about x; 0, 0, 0 (default): not given */
     double axis[3];            /**< the grating's x in the surface's frame (any length, each within
                                     KNURL_COORDINATE_MAX); 0, 0, 0: a plane's x, a mesh's tangents, else its
-                                    uvs. With an axis, surface coordinates are
+                                    uvs, else see KNURL_COORDINATES_BOX. With an axis, surface coordinates are
                                     metres from the surface's origin along it */
     knurl_surface_id shape_of; /**< a surface of this scene to share its shape and axis, instead of giving a plane or
                                   mesh. The shape is stored once, until its last user is removed; 0: not shared */
+    int32_t coordinates;       /**< KNURL_COORDINATES_, of a mesh; default AUTO. With BOX the axis must be 0, 0, 0 */
+    uint32_t reserved;         /**< 0 */
 } knurl_surface_desc;
 
 /** Fills in defaults; `size` is the caller's sizeof. [any thread] */

@@ -6,11 +6,11 @@
 #include "base/vec3.h"
 #include "contact/contact.h"
 #include "contact/mesh_adjacency.h"
-#include "contact/mesh_frame.h"
 #include "contact/mesh_normals.h"
 #include "contact/mesh_touch.h"
 #include "contact/mesh_winding.h"
 #include "contact/seeded_hash.h"
+#include "contact/uv_scale.h"
 #include "contact/weld.h"
 
 #include <string.h>
@@ -260,7 +260,9 @@ static knurl_result build_mesh(draft *d) {
         d->mesh->seam = seam_of(d->mesh);
         d->mesh->touching = knurl_mesh_count_touching(d->mesh);
         result = knurl_mesh_unify_winding(d->heap, d->mesh);
-        knurl_mesh_measure_uvs(d->mesh);
+    }
+    if (!result) {
+        result = knurl_mesh_measure_uvs(d->heap, d->mesh);
     }
     if (!result && d->mesh->normals) {
         knurl_mesh_settle_normals(d->heap, d->mesh);

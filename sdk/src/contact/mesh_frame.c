@@ -1,4 +1,4 @@
-/* Surface coordinates on a mesh, from an axis or from tangents and uvs, and the stretch of the uvs.
+/* Surface coordinates on a mesh, from an axis, from tangents and uvs, or projected.
  * SPDX-License-Identifier: MIT */
 #include "contact/mesh_frame.h"
 
@@ -20,8 +20,29 @@ static const uint32_t *attributes_of(const knurl_mesh *mesh, uint32_t triangle) 
     return &(mesh->attributes ? mesh->attributes : mesh->triangles)[3 * (size_t)triangle];
 }
 
+/* The same of projected positions. */
+static int find_projected(const knurl_mesh *mesh, uint32_t triangle, uv_edges *e) {
+    double corners[3][3], uv[3][2];
+    const int side = knurl_projection_side_of(mesh, triangle);
+    knurl_mesh_corners(mesh, triangle, corners);
+    for (int k = 0; k < 3; k++) {
+        knurl_projection_place(side, corners[k], uv[k]);
+    }
+    e->u0 = uv[0][0];
+    e->v0 = uv[0][1];
+    e->u1 = uv[1][0] - e->u0;
+    e->v1 = uv[1][1] - e->v0;
+    e->u2 = uv[2][0] - e->u0;
+    e->v2 = uv[2][1] - e->v0;
+    e->det = e->u1 * e->v2 - e->u2 * e->v1;
+    return 1; /* at least 1/sqrt(3) of the triangle's area */
+}
+
 /* Fills in all but the edges, for a mesh with uvs. 0 if the uvs have no area. */
 static int find_uvs(const knurl_mesh *mesh, uint32_t triangle, uv_edges *e) {
+    if (mesh->is_projected) {
+        return find_projected(mesh, triangle, e);
+    }
     const uint32_t *at = attributes_of(mesh, triangle);
     const float *uv[3] = {&mesh->uvs[2 * (size_t)at[0]], &mesh->uvs[2 * (size_t)at[1]], &mesh->uvs[2 * (size_t)at[2]]};
     e->u0 = (double)uv[0][0];
@@ -31,15 +52,13 @@ static int find_uvs(const knurl_mesh *mesh, uint32_t triangle, uv_edges *e) {
     e->u2 = (double)uv[2][0] - e->u0;
     e->v2 = (double)uv[2][1] - e->v0;
     e->det = e->u1 * e->v2 - e->u2 * e->v1;
-    const double largest =
-        fabs(e->u1) + fabs(e->u2) + fabs(e->v1) + fabs(e->v2); /* uvs are floats: a smaller determinant is rounding */
-    return fabs(e->det) > 1e-9 * largest * largest;
+    return knurl_uvs_have_area(e->u1, e->v1, e->u2, e->v2);
 }
 
 /* 0 if the mesh has no uvs, or the uvs have no area. */
 static int find_uv_edges(const knurl_mesh *mesh, uint32_t triangle, uv_edges *e) {
     double corners[3][3];
-    if (!mesh->uvs) {
+    if (!mesh->uvs && !mesh->is_projected) {
         return 0;
     }
     knurl_mesh_corners(mesh, triangle, corners);
@@ -48,8 +67,7 @@ static int find_uv_edges(const knurl_mesh *mesh, uint32_t triangle, uv_edges *e)
     return find_uvs(mesh, triangle, e);
 }
 
-/* dP/du and dP/dv of a triangle; 0 if it has no uvs, or the uvs have no area. */
-static int uv_frame(const knurl_mesh *mesh, uint32_t triangle, double du[3], double dv[3]) {
+int knurl_mesh_uv_frame(const knurl_mesh *mesh, uint32_t triangle, double du[3], double dv[3]) {
     uv_edges e;
     if (!find_uv_edges(mesh, triangle, &e)) {
         return 0;
@@ -59,47 +77,6 @@ static int uv_frame(const knurl_mesh *mesh, uint32_t triangle, double du[3], dou
         dv[axis] = (e.u1 * e.edge2[axis] - e.u2 * e.edge1[axis]) / e.det;
     }
     return vec3_length(du) > 0.0 && vec3_length(dv) > 0.0;
-}
-
-/* Lengths of dP/du or of dP/dv, summed over area. */
-typedef struct length_sums {
-    double sum;
-    double inverse;
-    double shortest, longest;
-} length_sums;
-
-static void add_length(length_sums *sums, double area, double length) {
-    sums->sum += area * length;
-    sums->inverse += area / length;
-    sums->shortest = fmin(sums->shortest, length);
-    sums->longest = fmax(sums->longest, length);
-}
-
-/* Sets the area-weighted means of |dP/du| and |dP/dv|, and the stretch relative to them. */
-void knurl_mesh_measure_uvs(knurl_mesh *mesh) {
-    double area = 0.0;
-    length_sums sums[2] = {{0.0, 0.0, HUGE_VAL, 0.0}, {0.0, 0.0, HUGE_VAL, 0.0}};
-    for (uint32_t i = 0; i < mesh->triangle_count; i++) {
-        double du[3];
-        double dv[3];
-        knurl_triangle t;
-        if (uv_frame(mesh, i, du, dv)) {
-            knurl_mesh_triangle(mesh, i, &t);
-            area += t.area2;
-            add_length(&sums[0], t.area2, vec3_length(du));
-            add_length(&sums[1], t.area2, vec3_length(dv));
-        }
-    }
-    for (int i = 0; i < 2; i++) {
-        double *stretch = mesh->stretch[i];
-        stretch[0] = stretch[1] = stretch[2] = 1.0;
-        if (area > 0.0) {
-            mesh->uv_scale[i] = sums[i].sum / area;
-            stretch[0] = mesh->uv_scale[i] / sums[i].longest;
-            stretch[1] = mesh->uv_scale[i] * sums[i].inverse / area;
-            stretch[2] = mesh->uv_scale[i] / sums[i].shortest;
-        }
-    }
 }
 
 /* Direction in which u grows, of any length: dP/du without the division. */
@@ -231,7 +208,7 @@ static void keep_frame(const knurl_mesh *mesh, knurl_facet *f) {
     vec3_copy(f->ab, e.edge1);
     vec3_copy(f->ac, e.edge2);
     double x[3] = {0.0, 0.0, 0.0};
-    f->has_uvs = mesh->uvs && find_uvs(mesh, f->triangle, &e);
+    f->has_uvs = (mesh->uvs || mesh->is_projected) && find_uvs(mesh, f->triangle, &e);
     if (f->has_uvs) {
         find_u_direction(&e, x);
         f->u0 = e.u0;
@@ -246,6 +223,22 @@ static void keep_frame(const knurl_mesh *mesh, knurl_facet *f) {
     frame_along(f->unit, x, f->x, f->y);
     f->has_frame = 1;
     f->has_gradients = 0;
+}
+
+void knurl_mesh_carry(const knurl_mesh *mesh, const knurl_contact *contact, int begins, knurl_projection_carry *carry,
+                      double coordinates[2]) {
+    const int side = knurl_projection_side_of(mesh, contact->triangle);
+    if (begins) {
+        carry->by[0] = carry->by[1] = 0.0;
+    } else if (side != carry->side) {
+        double before[2];
+        knurl_projection_place(carry->side, contact->proxy, before);
+        carry->by[0] += before[0] - coordinates[0];
+        carry->by[1] += before[1] - coordinates[1];
+    }
+    carry->side = side;
+    coordinates[0] += carry->by[0];
+    coordinates[1] += carry->by[1];
 }
 
 void knurl_mesh_find_frame(const knurl_mesh *mesh, const knurl_contact *contact, double x[3], double y[3],

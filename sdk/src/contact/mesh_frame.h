@@ -1,13 +1,21 @@
-/* Surface coordinates on a mesh, from an axis or from tangents and uvs, and the stretch of the uvs.
+/* Surface coordinates on a mesh, from an axis or from tangents and uvs.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_MESH_FRAME_H
 #define KNURL_SRC_MESH_FRAME_H
 
 #include "contact/facet.h"
 #include "contact/mesh.h"
+#include "contact/projection.h"
 
-/* Part of knurl_mesh_create(): sets uv_scale and stretch. */
-void knurl_mesh_measure_uvs(knurl_mesh *mesh);
+/* 1 if uvs, given by their differences along two edges, have an area. They are floats: a smaller determinant is
+ * rounding. */
+static inline int knurl_uvs_have_area(double u1, double v1, double u2, double v2) {
+    const double largest = fabs(u1) + fabs(u2) + fabs(v1) + fabs(v2);
+    return fabs(u1 * v2 - u2 * v1) > 1e-9 * largest * largest;
+}
+
+/* dP/du and dP/dv of a triangle; 0 if it has no uvs, or the uvs have no area. */
+int knurl_mesh_uv_frame(const knurl_mesh *mesh, uint32_t triangle, double du[3], double dv[3]);
 
 /* After knurl_mesh_create(): makes x run along an axis (unit), and sets stretch to its tangential length. */
 void knurl_mesh_set_axis(knurl_mesh *mesh, const double axis[3]);
@@ -41,5 +49,10 @@ static inline void knurl_mesh_frame(const knurl_mesh *mesh, const knurl_contact 
  * axis and the uvs have no area. Allowed in a tick. */
 int knurl_mesh_rates(const knurl_mesh *mesh, const knurl_contact *contact, const double velocity[3],
                      double rates[2]) KNURL_NONBLOCKING;
+
+/* Makes projected coordinates go on where the projection changes: there they would jump, which is half cycles that
+ * nobody has crossed. begins: 1: the contact's first tick. Allowed in a tick. */
+void knurl_mesh_carry(const knurl_mesh *mesh, const knurl_contact *contact, int begins, knurl_projection_carry *carry,
+                      double coordinates[2]) KNURL_NONBLOCKING;
 
 #endif

@@ -9,6 +9,7 @@
 #include "contact/mesh_normals.h"
 #include "contact/mesh_query.h"
 #include "contact/plane_from_mesh.h"
+#include "contact/uv_scale.h"
 
 #include <string.h>
 
@@ -115,6 +116,8 @@ static void mesh_facts(const void *geometry, knurl_shape_facts *facts) {
                               .curved = mesh->curved,
                               .bad_normals = mesh->bad_normals,
                               .bulge = mesh->bulge,
+                              .uneven = mesh->uneven,
+                              .projection_seams = mesh->projection_seams,
                               .error = 0.0}; /* meshes are stored as given, in floats */
     memcpy(made.stretch, mesh->stretch, sizeof made.stretch);
     *facts = made;
@@ -161,7 +164,8 @@ static void set_mesh(knurl_shape *shape, knurl_mesh *mesh, const double *axis) {
     if (axis) {
         knurl_mesh_set_axis(mesh, axis);
     }
-    shape->has_coordinates = mesh->uvs || axis;
+    shape->has_coordinates = mesh->uvs || mesh->is_projected || axis;
+    shape->is_projected = mesh->is_projected;
     shape->double_sided = mesh->double_sided;
     shape->seam = mesh->seam;
     shape->bulge = mesh->bulge;
@@ -190,8 +194,22 @@ static knurl_result from_plane(knurl_heap *heap, const knurl_shape_desc *d, knur
     }
     knurl_plane_from_rectangle(desc.half_extents, d->axis, plane);
     shape->why = "given as a plane";
+    shape->coordinates = d->axis ? "axis" : "plane";
     set_plane(shape, plane);
     return KNURL_OK;
+}
+
+/* Decides where the coordinates come from; leaves out what is not used. */
+static const char *choose_coordinates(const knurl_shape_desc *d, knurl_mesh_desc *desc) {
+    if (d->axis) {
+        return "axis";
+    }
+    if (d->is_box) {
+        desc->uvs = desc->tangents = NULL;
+    }
+    const int has_flat_uvs = desc->uvs && !knurl_uvs_are_usable(desc);
+    desc->uvs = has_flat_uvs ? NULL : desc->uvs;
+    return desc->uvs ? "uvs" : desc->tangents ? "tangents" : has_flat_uvs ? "box, for its uvs have no area" : "box";
 }
 
 static knurl_result from_mesh(knurl_heap *heap, const knurl_shape_desc *d, knurl_shape *shape, double position[3],
@@ -202,19 +220,23 @@ static knurl_result from_mesh(knurl_heap *heap, const knurl_shape_desc *d, knurl
     knurl_mesh_desc_init(&desc, sizeof desc);
     knurl_result result = knurl_desc_read("knurl_mesh_desc", d->mesh, &desc, sizeof desc);
     result = result ? result : knurl_mesh_check(&desc);
-    if (!result && !d->axis && !desc.uvs && !desc.tangents) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT,
-                          "axis: expected one for a mesh with neither tangents nor uvs, found none");
+    if (result) {
+        return result;
     }
+    shape->coordinates = choose_coordinates(d, &desc);
+    const int is_projected = !d->axis && !desc.uvs && !desc.tangents;
     shape->why = "the full model was requested (KNURL_FULL_MESHES)";
-    const int curves = !result && knurl_mesh_curves(&desc);
+    const int curves = knurl_mesh_curves(&desc);
     if (curves) {
         shape->why = "its normals describe a curved surface";
-    } else if (!result && !d->full_model) {
+    } else if (!d->full_model) {
         result = knurl_plane_from_mesh(heap, &desc, d->axis, &plane, position, rotation, &shape->why);
     }
     if (!result && !plane) {
         result = knurl_mesh_create(heap, &desc, &mesh);
+    }
+    if (!result && mesh && is_projected) {
+        result = knurl_mesh_set_projection(heap, mesh);
     }
     if (plane) {
         set_plane(shape, plane);

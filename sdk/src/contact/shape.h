@@ -32,17 +32,17 @@ typedef struct knurl_shape {
     double low[3], high[3];   /* bounds, m */
     double seam;              /* m: beyond its edges that a cast still hits */
     double bulge; /* m: greatest distance of the felt surface from a smooth mesh's triangles; 0: felt as is */
-    int32_t has_coordinates; /* 1: uvs, an axis or a plane's own metres give positions on the grating */
-    int32_t double_sided;    /* 1: every triangle can be touched from both sides */
-    const char *why;         /* static: reason for this model */
+    int32_t has_coordinates, is_projected; /* 1: there are positions on the grating; 1: projected, with jumps */
+    int32_t double_sided;                  /* 1: every triangle can be touched from both sides */
+    const char *why, *coordinates;         /* static, of knurl_surface_info */
 } knurl_shape;
 
 /* Description of a shape to create. */
 typedef struct knurl_shape_desc {
     const knurl_plane_desc *plane; /* exactly one of plane and mesh is set */
     const knurl_mesh_desc *mesh;
-    const double *axis; /* unit, in the frame of the plane or mesh: the grating's x; null: tangents, else uvs */
-    int32_t full_model; /* 1: a flat mesh stays a mesh */
+    const double *axis;         /* unit, in the frame of the plane or mesh: the grating's x; null: tangents, else uvs */
+    int32_t is_box, full_model; /* 1: coordinates are projected, without an axis; 1: a flat mesh stays a mesh */
 } knurl_shape_desc;
 
 /* Creates a shape. position, rotation (row-major): its own frame, in the frame of the given plane or mesh. Errors:

@@ -4,6 +4,7 @@
 #include "contact/sheet_coordinates.h"
 
 #include "base/vec3.h"
+#include "contact/projection.h"
 
 #include <string.h>
 
@@ -48,6 +49,27 @@ static void map_by_axis(knurl_sheet *sheet, const double axis[3], knurl_plane *p
     plane->map[1][1] = 1.0;
     plane->map[1][2] = vec3_dot(sheet->origin, sheet->axes[1]);
     knurl_plane_set_stretch(plane, length);
+    plane->has_coordinates = 1;
+}
+
+/* Positions, projected as on a mesh. */
+static void map_by_projection(knurl_sheet *sheet, knurl_plane *plane) {
+    const int side = knurl_projection_side(sheet->axes[2]);
+    double origin[2], columns[2][2];
+    knurl_projection_place(side, sheet->origin, origin);
+    knurl_projection_place(side, sheet->axes[0], columns[0]);
+    knurl_projection_place(side, sheet->axes[1], columns[1]);
+    for (int i = 0; i < 2; i++) {
+        plane->map[i][0] = columns[0][i];
+        plane->map[i][1] = columns[1][i];
+        plane->map[i][2] = origin[i];
+    }
+    const double det = columns[0][0] * columns[1][1] - columns[1][0] * columns[0][1];
+    for (int i = 0; i < 2; i++) { /* 1 / |dP/du| = det / |grad v| */
+        const double *other = plane->map[1 - i];
+        const double stretch = det / sqrt(other[0] * other[0] + other[1] * other[1]);
+        plane->stretch[i][0] = plane->stretch[i][1] = plane->stretch[i][2] = stretch;
+    }
     plane->has_coordinates = 1;
 }
 
@@ -188,12 +210,10 @@ void knurl_sheet_coordinates(knurl_sheet *sheet, const double axis[3], knurl_pla
         map_by_axis(sheet, axis, plane, why);
         return;
     }
-    if (!d->tangents && !d->uvs) {
-        *why = "mesh: no axis, tangents or uvs to give its x direction";
-        return;
-    }
     if (d->uvs) {
         map_by_uvs(sheet, plane, why);
+    } else if (!d->tangents) {
+        map_by_projection(sheet, plane);
     }
     if (*why) {
         return;

@@ -76,8 +76,8 @@ knurl_mesh_desc mesh_of(const Geometry &geometry) {
     return mesh;
 }
 
-/// Identifies a shape: the primitive's place, the baked transform, the axis (0, 0, 0: no axis).
-using ShapeKey = std::array<double, 13>;
+/// Identifies a shape: the primitive's place, the baked transform, the axis (0, 0, 0: no axis), the coordinates.
+using ShapeKey = std::array<double, 14>;
 
 ShapeKey key_of(const Instance &instance, uint32_t primitive, const Frame &frame) {
     ShapeKey key{static_cast<double>(primitive)};
@@ -85,6 +85,7 @@ ShapeKey key_of(const Instance &instance, uint32_t primitive, const Frame &frame
     std::copy(baked.begin(), baked.end(), key.begin() + 1);
     if (const auto &axis = instance.tag.axis)
         std::copy(axis->begin(), axis->end(), key.begin() + 10);
+    key[13] = instance.tag.coordinates.value_or(KNURL_COORDINATES_AUTO);
     return key;
 }
 
@@ -178,10 +179,8 @@ class Maker {
             const glm::dvec3 turned = glm::normalize(frame.bake * glm::dvec3((*axis)[0], (*axis)[1], (*axis)[2]));
             for (int k = 0; k < 3; ++k)
                 surface.axis[k] = turned[k];
-        } else if (geometry.tangents.empty() && geometry.uvs.empty()) {
-            refuse(where, "knurl.axis: missing: expected one (3 numbers, the grating's x in object space), because the "
-                          "primitive has neither TANGENT nor TEXCOORD_0: add an axis to the tag, or UVs to the mesh");
         }
+        surface.coordinates = outline_.instances[i].tag.coordinates.value_or(KNURL_COORDINATES_AUTO);
         return addition.add(surface, where);
     }
 

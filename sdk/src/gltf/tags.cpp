@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tags.hpp"
 
-#include <knurl/grating.h>
+#include <knurl/scene.h>
 
 #include <algorithm>
 #include <cmath>
@@ -69,6 +69,13 @@ void read_axis(Tag &tag, const Entry &entry) {
     tag.axis = axis;
 }
 
+void read_coordinates(Tag &tag, const Entry &entry) {
+    const std::string *name = entry.value.text();
+    if (name == nullptr || (*name != "auto" && *name != "box"))
+        entry.refuse("'auto' or 'box'");
+    tag.coordinates = *name == "box" ? KNURL_COORDINATES_BOX : KNURL_COORDINATES_AUTO;
+}
+
 /// The methods' names for a message: "'S1', 'S2' or 'bandlimited'".
 std::string method_names() {
     std::string names;
@@ -115,6 +122,7 @@ constexpr Key keys[] = {{"version", read_version},
                         {"friction", nullptr, &Tag::friction, 0.0, "a number >= 0 (a Coulomb coefficient)"},
                         {"orientation", nullptr, &Tag::orientation, any_number, "a number (rad)"},
                         {"axis", read_axis},
+                        {"coordinates", read_coordinates},
                         {"method", read_method},
                         {"smooth", read_smooth}};
 
@@ -152,11 +160,16 @@ void Tag::override_with(const Tag &other) {
         if (theirs)
             mine = theirs;
     };
+    if (other.axis)
+        coordinates.reset(); // of an axis and a box the later one wins
+    if (other.coordinates)
+        axis.reset();
     take(spatial_frequency, other.spatial_frequency);
     for (const Key &key : keys)
         if (key.to != nullptr)
             take(this->*key.to, other.*key.to);
     take(axis, other.axis);
+    take(coordinates, other.coordinates);
     take(method, other.method);
     take(smooth, other.smooth);
 }

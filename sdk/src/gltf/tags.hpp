@@ -18,6 +18,7 @@ struct Tag {
     std::optional<double> friction;
     std::optional<double> orientation;
     std::optional<std::array<double, 3>> axis; ///< object space, not 0
+    std::optional<int32_t> coordinates;        ///< KNURL_COORDINATES_
     std::optional<int32_t> method;
     std::optional<bool> smooth; ///< false: felt as its triangles, whatever its normals
 

@@ -63,7 +63,7 @@ static inline void play_grating(const knurl_hip_motion *hip, const knurl_active_
         out->cycles[0] = out->cycles[1] = 0.0;
         return;
     }
-    knurl_surface_coordinates(c->surface, c->record, &c->contact, coordinates);
+    knurl_surface_coordinates(c->surface, c->record, &c->contact, c->begins, &c->candidate->carry, coordinates);
     double rates[2] = {velocity.x, velocity.y};
     int32_t has_position = 1;
     if (knurl_methods[m->method].follows_position) { /* without coordinates the method integrates the velocity */

@@ -5,6 +5,7 @@
 #include "base/base.h"
 #include "base/vec3.h"
 #include "contact/facet.h"
+#include "contact/projection.h"
 #include "guard/wall.h"
 #include "proxy/hip_clock.h"
 #include "surface/pose.h"
@@ -32,8 +33,9 @@ typedef struct knurl_candidate {
     double normal[3];
     uint32_t is_unfelt; /* 1: a smooth mesh's triangles, but not its surface, were in contact at the last tick */
     double anchor[3];   /* friction: the point where the HIP sticks, shape's frame */
-    float box[6];       /* scene axes; there is no contact outside it */
-    float swept[6];     /* scene axes: swept by the motion of `swept_of`, with crests, without margin */
+    knurl_projection_carry carry; /* of projected coordinates */
+    float box[6];                 /* scene axes; there is no contact outside it */
+    float swept[6];               /* scene axes: swept by the motion of `swept_of`, with crests, without margin */
     const knurl_record *swept_of; /* or null; start and reach detect reuse of its address */
     double swept_start, swept_reach;
     uint64_t swept_tick; /* tick in which `swept` was last tested */

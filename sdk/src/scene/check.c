@@ -81,13 +81,20 @@ static void check_texture(const inspection *on, double stiffness) {
     }
 }
 
-/* Compares the ridges per metre that are felt along x or y with the material's. A surface with an axis is skipped: it
- * uses no uvs, and its ridges stand as if planes cut them. */
+/* Compares the ridges per metre that are felt along x or y with the material's. A surface with an axis or projected
+ * coordinates is skipped: it uses no uvs, and its ridges stand as if planes cut them. */
 static void check_stretch(const inspection *on, const knurl_surface_data *surface) {
     const knurl_material_desc *m = on->material;
     const int has_axis = vec3_dot(surface->axis, surface->axis) > 0.0;
     knurl_shape_facts facts;
     if (!knurl_methods[m->method].follows_position || has_axis) {
+        return;
+    }
+    if (strstr(surface->shape.coordinates, "no area")) {
+        say(on, KNURL_LIMIT_STRETCH, "its uvs have no area, as a palette's, so ridges are projected along its axes",
+            "unwrap it, give it an axis, or ask for box coordinates");
+    }
+    if (surface->shape.is_projected) {
         return;
     }
     knurl_shape_get_facts(&surface->shape, &facts);
@@ -97,10 +104,12 @@ static void check_stretch(const inspection *on, const knurl_surface_data *surfac
         const double *stretch = facts.stretch[i];
         char sentence[256];
         if (fs > 0.0 && (stretch[2] > KNURL_STRETCH_MAX || stretch[0] * KNURL_STRETCH_MAX < 1.0)) {
-            (void)knurl_format(sentence, sizeof sentence,
-                               "its uvs stretch: the %.4g/m along %c are felt as %.4g to %.4g/m", fs, "uv"[i],
-                               stretch[0] * fs, stretch[2] * fs);
-            say(on, KNURL_LIMIT_STRETCH, sentence, "unwrap it evenly, give it an axis, or use S2");
+            (void)knurl_format(
+                sentence, sizeof sentence,
+                "its uvs stretch: the %.4g/m along %c are felt as %.4g to %.4g/m, more than an octave off on "
+                "%.2g %% of its area",
+                fs, "uv"[i], stretch[0] * fs, stretch[2] * fs, 100.0 * facts.uneven);
+            say(on, KNURL_LIMIT_STRETCH, sentence, "unwrap it evenly, give it an axis or box coordinates, or use S2");
         }
     }
 }

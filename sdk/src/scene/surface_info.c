@@ -58,6 +58,9 @@ static void describe_model(const knurl_surface_data *surface, knurl_surface_info
     info->curved_triangles = facts.curved;
     info->bad_normals = facts.bad_normals;
     info->bulge = facts.bulge;
+    info->coordinates = surface->shape.coordinates;
+    info->uneven = facts.uneven;
+    info->projection_seams = facts.projection_seams;
     info->double_sided = (uint32_t)surface->double_sided;
     info->bytes = knurl_heap_size(surface) + knurl_heap_size(surface->record) + knurl_heap_size(surface->name) +
                   facts.bytes / knurl_shape_users(&surface->shape);

@@ -78,7 +78,15 @@ static knurl_result set_shape(knurl_heap *heap, const knurl_surface_desc *d, uin
                               knurl_surface_data *surface) {
     const int has_axis = vec3_length(surface->axis) > 0.0;
     const knurl_shape_desc shape = {d->plane, d->mesh, has_axis ? surface->axis : NULL,
-                                    (full_model & KNURL_FULL_MESHES) != 0};
+                                    d->coordinates == KNURL_COORDINATES_BOX, (full_model & KNURL_FULL_MESHES) != 0};
+    if (d->coordinates < KNURL_COORDINATES_AUTO || d->coordinates > KNURL_COORDINATES_BOX) {
+        return knurl_fail(KNURL_ERROR_UNKNOWN, "coordinates: expected one of KNURL_COORDINATES_, found %d",
+                          (int)d->coordinates);
+    }
+    if (shape.is_box && has_axis) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "axis: expected zeros with KNURL_COORDINATES_BOX, found [%g, %g, %g]",
+                          d->axis[0], d->axis[1], d->axis[2]);
+    }
     const knurl_result result =
         knurl_shape_create(heap, &shape, &surface->shape, surface->local.position, surface->local.rotation);
     surface->given = d->mesh ? "mesh" : "plane";
@@ -106,6 +114,13 @@ static knurl_result set_shared_shape(const knurl_surface_desc *d, const knurl_sh
         return knurl_fail(KNURL_ERROR_ARGUMENT,
                           "axis: expected zeros with shape_of, whose axis is used, found [%g, %g, %g]", d->axis[0],
                           d->axis[1], d->axis[2]);
+    }
+    if (d->coordinates != KNURL_COORDINATES_AUTO) {
+        return knurl_fail(
+            KNURL_ERROR_ARGUMENT,
+            "coordinates: expected KNURL_COORDINATES_AUTO with shape_of, whose coordinates are used, found "
+            "%d",
+            (int)d->coordinates);
     }
     vec3_copy(shared->axis, surface->axis);
     return KNURL_OK;

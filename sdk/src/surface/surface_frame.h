@@ -21,11 +21,15 @@ static inline void knurl_surface_frame(const knurl_surface_data *surface, const 
     }
 }
 
-/* The contact's position on the grating, m, as method S1 uses it. After knurl_surface_frame(), with its coordinates. */
+/* The contact's position on the grating, m, as method S1 uses it. After knurl_surface_frame(), with its coordinates.
+ * begins, carry: as for knurl_mesh_carry(). */
 static inline void knurl_surface_coordinates(const knurl_surface_data *surface, const knurl_record *record,
-                                             const knurl_contact *contact, double coordinates[2]) {
+                                             const knurl_contact *contact, int begins, knurl_projection_carry *carry,
+                                             double coordinates[2]) {
     if (surface->shape.plane) {
         knurl_plane_coordinates(surface->shape.plane, contact, coordinates);
+    } else if (surface->shape.is_projected) {
+        knurl_mesh_carry(surface->shape.geometry, contact, begins, carry, coordinates);
     }
     if (record->is_oriented) { /* rotates the frame, so the coordinates rotate back */
         const double c = record->cos_sin[0];

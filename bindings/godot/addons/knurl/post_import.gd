@@ -35,10 +35,14 @@ func _post_process(scene: Node) -> void:
 			continue
 		left.add_child(surface, true)
 		surface.owner = scene
-		if left is CollisionShape3D and surface.axis == Vector3.ZERO:
+		if (
+			left is CollisionShape3D
+			and surface.axis == Vector3.ZERO
+			and not surface.box_coordinates
+		):
 			push_warning(
 				(
-					"Knurl: %s: %s: a collision shape has no UVs: add an axis to the tag"
+					"Knurl: %s: %s: a collision shape has no UVs: add an axis or box coordinates to the tag"
 					% [scene.name, parent.name]
 				)
 			)

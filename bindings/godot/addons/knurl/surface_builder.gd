@@ -138,7 +138,6 @@ func _tag_of(
 
 func _why_not(tag: Tags.Tag, node_index: int, mesh_index: int, primitive: Dictionary) -> String:
 	var missing: String = tag.missing_key()
-	var attributes: Dictionary = primitive.get("attributes", {})
 	if not missing.is_empty():
 		var material: String = ""
 		if primitive.has("material"):
@@ -160,16 +159,6 @@ func _why_not(tag: Tags.Tag, node_index: int, mesh_index: int, primitive: Dictio
 		return "targets: a tagged mesh cannot have morph targets"
 	if int(primitive.get("mode", TRIANGLES)) < TRIANGLES:
 		return "mode: expected triangles in a tagged primitive"
-	if (
-		not tag.values.has("axis")
-		and not attributes.has("TANGENT")
-		and not attributes.has("TEXCOORD_0")
-	):
-		return (
-			"knurl.axis: missing: expected one (3 numbers, the grating's x in object space), "
-			+ "because the primitive has neither TANGENT nor TEXCOORD_0: "
-			+ "add an axis to the tag, or UVs to the mesh"
-		)
 	return ""
 
 
@@ -179,12 +168,14 @@ func _add_surface(parent: Node3D, tag: Tags.Tag, double_sided: bool) -> void:
 	surface.grating = _grating_of(tag)
 	surface.double_sided = double_sided
 	surface.axis = tag.values.get("axis", Vector3.ZERO)
+	surface.box_coordinates = tag.values.get("coordinates", "auto") == "box"
 	_add_child(parent, surface)
 
 
 func _grating_of(tag: Tags.Tag) -> KnurlGrating:
 	var values: Dictionary = tag.values.duplicate()
-	values.erase("axis")  # the surface's
+	values.erase("axis")  # the surface's, as are the coordinates
+	values.erase("coordinates")
 	if not _gratings.has(values):
 		var grating := KnurlGrating.new()
 		for key: String in values:

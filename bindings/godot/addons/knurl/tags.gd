@@ -14,6 +14,7 @@ const KEYS: Array[String] = [
 	"friction",
 	"orientation",
 	"axis",
+	"coordinates",
 	"method",
 	"smooth",
 ]
@@ -29,6 +30,10 @@ class Tag:
 
 	## Takes each key that [param other] has from it.
 	func override_with(other: Tag) -> void:
+		if other.values.has("axis"):  # of an axis and a box the later one wins
+			values.erase("coordinates")
+		if other.values.has("coordinates"):
+			values.erase("axis")
 		values.merge(other.values, true)
 		broken = broken or other.broken
 
@@ -120,6 +125,11 @@ func _read_entry(tag: Tag, prefix: String, key: String, value: Variant) -> void:
 			_read_number(tag, key, at, "a number (rad)", value, _is_number)
 		"axis":
 			_read_axis(tag, at, value)
+		"coordinates":
+			if value is String and value in ["auto", "box"]:
+				tag.values[key] = value
+			else:
+				_refuse_value(at, "'auto' or 'box'", value)
 		"method":
 			if not value is String:
 				_refuse_value(at, "a string: 'S1', 'S2' or 'bandlimited'", value)

@@ -61,7 +61,7 @@ namespace Knurl.Editing
         {
             Mesh mesh;
             var drawn = surface.GetComponent<Renderer>();
-            return surface.Axis == Vector3.zero && surface.Grating != null && surface.FindMesh(out mesh) == null
+            return surface.Axis == Vector3.zero && !surface.BoxCoordinates && surface.Grating != null && surface.FindMesh(out mesh) == null
                 && (drawn == null || !drawn.sharedMaterials.Any(HasTexture));
         }
 

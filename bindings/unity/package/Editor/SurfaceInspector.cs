@@ -15,7 +15,9 @@ namespace Knurl.Editing
         static readonly GUIContent DoubleSided = new GUIContent("Double Sided", "Whether it can be touched from " +
             "behind as well");
         static readonly GUIContent Axis = new GUIContent("Axis (mesh axes)", "The direction of the grating's x. " +
-            "(0, 0, 0): the mesh's UVs, else its tangents");
+            "(0, 0, 0): the mesh's UVs, else its tangents, else box coordinates");
+        static readonly GUIContent Box = new GUIContent("Box Coordinates", "Whether ridges are laid out by positions " +
+            "in the mesh's axes, instead of by UVs");
 
         static readonly GUIContent Reaction = new GUIContent("Reaction", "Whether the nearest Rigidbody at or above it is " +
             "pushed by the opposite of what the hand feels");
@@ -36,6 +38,7 @@ namespace Knurl.Editing
             DrawGratings();
             Draw("doubleSided", DoubleSided);
             Draw("axis", Axis);
+            Draw("boxCoordinates", Box);
             Draw("reaction", Reaction);
             Draw("layers", Layers);
             if (EditorGUI.EndChangeCheck())

@@ -173,6 +173,7 @@ namespace Knurl.Editing
             {
                 surface.Axis = Axes.ToMesh(tag.Axis, owner.transform.localToWorldMatrix);
             }
+            surface.BoxCoordinates = tag.BoxCoordinates && surface.Axis == Vector3.zero;
             if (PrefabUtility.IsPartOfPrefabInstance(surface))
             {
                 PrefabUtility.RecordPrefabInstancePropertyModifications(surface);

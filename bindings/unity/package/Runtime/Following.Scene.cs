@@ -71,6 +71,7 @@ namespace Knurl
             desc.mesh = &mesh;
             desc.material = &material;
             desc.double_sided = surface.DoubleSided ? 1u : 0u;
+            desc.coordinates = surface.BoxCoordinates ? NativeMethods.KNURL_COORDINATES_BOX : 0;
             Copy(pose->position, desc.position, 3);
             Copy(pose->quaternion, desc.rotation, 4);
             Axes.ToScene(surface.Axis, axis);

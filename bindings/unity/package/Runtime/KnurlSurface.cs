@@ -23,8 +23,12 @@ namespace Knurl
         bool doubleSided;
 
         [SerializeField, Tooltip("The grating's x direction in the mesh's own axes, of any length. (0, 0, 0): the "
-            + "mesh's UVs, else its tangents; a mesh that has neither needs an axis.")]
+            + "mesh's UVs, else its tangents, else box coordinates.")]
         Vector3 axis;
+
+        [SerializeField, Tooltip("Whether ridges are laid out by positions in the mesh's own axes, each triangle's projected "
+            + "along the axis that its normal is closest to, instead of by UVs. The axis has to be (0, 0, 0).")]
+        bool boxCoordinates;
 
         [SerializeField, Tooltip("Whether the nearest Rigidbody at or above it is pushed by the opposite of what the hand "
             + "feels.")]
@@ -45,7 +49,7 @@ namespace Knurl
         // As counted in Made and Felt.
         [NonSerialized] KnurlGrating latestGrating;
         [NonSerialized] Vector3 latestAxis;
-        [NonSerialized] bool latestDoubleSided;
+        [NonSerialized] bool latestDoubleSided, latestBoxCoordinates;
 
         /// <summary>How it feels; null: it cannot be felt.</summary>
         public KnurlGrating Grating
@@ -68,11 +72,20 @@ namespace Knurl
         }
 
         /// <summary>The grating's x direction in the mesh's own axes, of any length. (0, 0, 0), the default: the mesh's
-        /// UVs, else its tangents; a mesh that has neither needs an axis.</summary>
+        /// UVs, else its tangents, else as <see cref="BoxCoordinates"/>.</summary>
         public Vector3 Axis
         {
             get { return axis; }
             set { axis = value; Made++; Remember(); }
+        }
+
+        /// <summary>Whether ridges are laid out by positions in the mesh's own axes, each triangle's projected along the
+        /// axis that its normal is closest to, instead of by UVs: for meshes with bad UVs. <see cref="Axis"/> has to be
+        /// (0, 0, 0). Default false.</summary>
+        public bool BoxCoordinates
+        {
+            get { return boxCoordinates; }
+            set { boxCoordinates = value; Made++; Remember(); }
         }
 
         /// <summary>Whether the nearest Rigidbody at or above it is pushed by the opposite of what the hand feels. Its
@@ -225,6 +238,7 @@ namespace Knurl
             latestGrating = grating;
             latestAxis = axis;
             latestDoubleSided = doubleSided;
+            latestBoxCoordinates = boxCoordinates;
         }
 
         /// <summary>An animation writes fields behind the properties' back, each frame: only what is another counts, for
@@ -232,7 +246,7 @@ namespace Knurl
         void OnDidApplyAnimationProperties()
         {
             bool isMadeAnew = latestDoubleSided != doubleSided || !Axes.IsSame(latestAxis, axis)
-                || (latestGrating == null) != (grating == null);
+                || latestBoxCoordinates != boxCoordinates || (latestGrating == null) != (grating == null);
             Made += isMadeAnew ? 1 : 0;
             Felt += ReferenceEquals(latestGrating, grating) ? 0 : 1;
             Remember();

@@ -20,6 +20,7 @@ namespace Knurl
             Method = (GratingMethod)material->method;
             DoubleSided = info->double_sided != 0;
             Axis = Axes.ToUnity(info->axis);
+            BoxCoordinates = Utf8.Read(info->coordinates) == "box";
         }
 
         /// <summary>The surface's name: its node's, else its mesh's.</summary>
@@ -52,6 +53,10 @@ namespace Knurl
         /// <summary>The grating's x where the tag has an axis: of length 1, in the axes of the object that shows the
         /// surface, after its scale. Zero where it has none.</summary>
         public Vector3 Axis { get; }
+
+        /// <summary>Whether ridges are laid out by positions, because the tag says so or because the mesh has neither
+        /// UVs nor tangents.</summary>
+        public bool BoxCoordinates { get; }
 
         /// <summary>Gives a grating these values, all of them.</summary>
         public void CopyTo(KnurlGrating grating)

@@ -154,6 +154,8 @@ namespace Knurl
         public fixed double normal[3];
         public fixed double axis[3];
         public ulong shape_of;
+        public int coordinates;
+        public uint reserved;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -475,6 +477,10 @@ namespace Knurl
         public uint curved_triangles;
         public uint bad_normals;
         public double bulge;
+        public byte* coordinates;
+        public double uneven;
+        public uint projection_seams;
+        public uint reserved;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -632,7 +638,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "5db8598e8978d14b";
+        internal const string Interface = "6a4c7b3e34486beb";
 
         internal const string Version = "0.3.0";
 
@@ -734,6 +740,8 @@ namespace Knurl
         internal const int KNURL_METHOD_S1 = 1;
         internal const int KNURL_METHOD_S2 = 2;
         internal const int KNURL_METHOD_BANDLIMITED = 3;
+        internal const int KNURL_COORDINATES_AUTO = 0;
+        internal const int KNURL_COORDINATES_BOX = 1;
         internal const int KNURL_FULL_MESHES = 1;
         internal const int KNURL_FULL_SEARCH = 2;
         internal const int KNURL_FULL_GRATING = 4;

@@ -79,9 +79,14 @@ namespace Knurl
             return of != null && of.IsClass("KnurlSurface") ? new KnurlSurface((Node3D)of) : null;
         }
 
-        /// <summary>The grating's x direction in the mesh's own axes. (0, 0, 0): the mesh's tangents, else its UVs; a
-        /// mesh that has neither needs an axis.</summary>
+        /// <summary>The grating's x direction in the mesh's own axes. (0, 0, 0): the mesh's tangents, else its UVs,
+        /// else as BoxCoordinates.</summary>
         public Vector3 Axis { get { return Object.Get("axis").AsVector3(); } set { Object.Set("axis", value); } }
+
+        /// <summary>Whether ridges are laid out by positions in the mesh's own axes, each triangle's projected along
+        /// the axis that its normal is closest to, instead of by UVs. For meshes with bad UVs; Axis has to be (0, 0,
+        /// 0).</summary>
+        public bool BoxCoordinates { get { return Object.Get("box_coordinates").AsBool(); } set { Object.Set("box_coordinates", value); } }
 
         /// <summary>Whether it can be touched from behind as well.</summary>
         public bool DoubleSided { get { return Object.Get("double_sided").AsBool(); } set { Object.Set("double_sided", value); } }
