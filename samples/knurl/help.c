@@ -1,6 +1,7 @@
 /* The commands of the tool in one table: help, a man page and completions. SPDX-License-Identifier: MIT */
 #include "help.h"
 
+#include "bench.h"
 #include "options.h"
 
 #include <knurl/knurl.h>
@@ -26,7 +27,10 @@ typedef struct help_command {
     const char *(*more)(void); /* or null: further details */
 } help_command;
 
-#define METHODS "S1|S2|bandlimited"
+#define STUDIES                                                                                                        \
+    "signals, coverage, temporal, device, gratings, preferences, tradeoff, velocity, tracking, half_cycles,\n"         \
+    "transitions, smooth, failures, stability"
+#define METHODS "METHOD" /* stands for the names of the library's table */
 #define BUDGET  {"--budget", "NAME=N,...", "limits of loading: surfaces, bytes, vertices, triangles, seconds"}
 #define PRETTY  {"--pretty", "", "JSON over several lines"}
 #define FULL    {"--full-model", "", "without reductions: flat meshes stay meshes, every tick tests all surfaces"}
@@ -53,7 +57,7 @@ static const help_command commands[] = {
      {{"--device", "URI", "fake (default), touch, falcon, rawhid, serial, dhd, inverse3; see 'knurl devices'"},
       {"--reconnect", "", "search for a lost device instead of ending"},
       {"--surface", "NAME", "the surface to stroke; default: the first"},
-      {"--stroke", "NAME", "of the fake device's hand, 1 mm deep: line (default), sweep, circle, press or rest"},
+      {"--stroke", "line|sweep|circle|press|rest", "of the fake device's hand, 1 mm deep; default line"},
       {"--trace", "CSV", "the fake device plays positions t,x,y,z (s, m) instead of a hand; - is standard input"},
       {"--exact", "", "--trace's positions are exact, even if they look like an encoder's counts"},
       {"--seconds", "S",
@@ -101,8 +105,7 @@ static const help_command commands[] = {
      "NAME",
      "compute the numbers of a figure or chart",
      {{"--out", "DIR", "writes NAME.csv and NAME.json there; samples/study/figures.py draws them"}},
-     "Names: signals, coverage, temporal, device, gratings, preferences, tradeoff, velocity, tracking, half_cycles,\n"
-     "transitions, smooth, failures, stability.",
+     "Names: " STUDIES ".",
      NULL},
     {"bench",
      "",
@@ -134,6 +137,20 @@ static const char exit_codes[] =
     "Exit codes: 0 done, 1 failed, 2 wrong usage, unknown method or unknown device, 3 inspect --check found a problem,\n"
     "4 a simulated run that touched nothing or hardly moved (its output is still written), 128 + N ended by\n"
     "signal N (130: Ctrl-C; nothing is written then).\n";
+
+/* An option's argument, or its values between bars. */
+static const char *argument_of(const help_option *o) {
+    static char methods[256];
+    if (strcmp(o->argument, METHODS) != 0) {
+        return o->argument;
+    }
+    methods[0] = '\0';
+    for (int32_t i = 1; knurl_method_name(i); i++) {
+        const size_t used = strlen(methods);
+        (void)snprintf(methods + used, sizeof methods - used, "%s%s", used ? "|" : "", knurl_method_name(i));
+    }
+    return methods;
+}
 
 static const help_command *find(const char *name) {
     for (size_t i = 0; i < COMMAND_COUNT; i++) {
@@ -167,7 +184,7 @@ int help_print(const char *command) {
     }
     printf("usage: knurl %s%s%s [options]: %s\n\n", c->name, c->arguments[0] ? " " : "", c->arguments, c->text);
     for (const help_option *o = c->options; o->name; o++) {
-        const int width = printf("  %s %s", o->name, o->argument);
+        const int width = printf("  %s %s", o->name, argument_of(o));
         printf("%*s%s\n", width < INDENT ? INDENT - width : 1, "", o->text);
     }
     printf("\n%s\n%s", c->details, c->more ? c->more() : "");
@@ -201,7 +218,7 @@ void help_print_man(void) {
         for (const help_option *o = c->options; o->name; o++) {
             fputs("\n.TP\n.B ", stdout);
             print_roff(o->name);
-            printf(" %s\n", o->argument);
+            printf(" %s\n", argument_of(o));
             print_roff(o->text);
         }
         fputs("\n.PP\n", stdout);
@@ -222,15 +239,53 @@ static void print_names(const help_command *only) {
     }
 }
 
-/* bash and zsh, which understands bash's after bashcompinit. */
+/* What an option takes, or what a command takes (null), with spaces between; false if that is a file or a number. */
+static int print_values(const help_command *c, const help_option *o) {
+    const char *values = o                                   ? argument_of(o)
+                         : strcmp(c->name, "study") == 0     ? STUDIES
+                         : strcmp(c->name, "calibrate") == 0 ? "falcon|"
+                                                             : "";
+    const int is_case = o && strcmp(o->name, "--case") == 0;
+    for (const bench_case *known = bench_cases; is_case && known->name; known++) {
+        printf("%s ", known->name);
+    }
+    if (is_case || strchr(values, '=') || !strpbrk(values, o ? "|" : "|,")) {
+        return is_case;
+    }
+    for (; *values; values++) {
+        putchar(strchr("|,\n", *values) ? ' ' : *values);
+    }
+    return 1;
+}
+
+static void bash_values(const help_command *c, const help_option *o) {
+    printf("  *:%s:%s) words='", c->name, o ? o->name : "*");
+    (void)print_values(c, o);
+    fputs("' ;;\n", stdout);
+}
+
+/* bash and zsh, which understands bash's after bashcompinit. Without words, bash completes files. */
 static void complete_bash(void) {
-    fputs("_knurl() {\n  local word=${COMP_WORDS[COMP_CWORD]} words\n  case $COMP_CWORD:${COMP_WORDS[1]} in\n"
-          "  1:*) words='help man completion ",
+    fputs("_knurl() {\n  local word=${COMP_WORDS[COMP_CWORD]} last=${COMP_WORDS[COMP_CWORD-1]} words=\n"
+          "  [ \"$last\" != = ] || last=${COMP_WORDS[COMP_CWORD-2]}\n" /* --option=value is three words */
+          "  [ \"$word\" != = ] || word=\n"
+          "  case $COMP_CWORD:${COMP_WORDS[1]}:$last in\n  1:*) words='help man completion ",
           stdout);
     print_names(NULL);
-    fputs("' ;;\n", stdout);
+    fputs("' ;;\n  2:help:*) words='", stdout);
+    print_names(NULL);
+    fputs("' ;;\n  2:completion:*) words='bash zsh fish' ;;\n", stdout);
     for (const help_command *c = commands; c < commands + COMMAND_COUNT; c++) {
-        printf("  *:%s) words='", c->name);
+        for (const help_option *o = c->options; o->name; o++) {
+            if (o->argument[0]) {
+                bash_values(c, o);
+            }
+        }
+        bash_values(c, NULL);
+    }
+    fputs("  esac\n  case $word:${COMP_WORDS[1]} in\n", stdout);
+    for (const help_command *c = commands; c < commands + COMMAND_COUNT; c++) {
+        printf("  -*:%s) words='", c->name);
         print_names(c);
         fputs("--help' ;;\n", stdout);
     }
@@ -240,10 +295,15 @@ static void complete_bash(void) {
 
 static void complete_fish(void) {
     for (const help_command *c = commands; c < commands + COMMAND_COUNT; c++) {
-        printf("complete -c knurl -n __fish_use_subcommand -a %s -d \"%s\"\n", c->name, c->text);
+        printf("complete -c knurl -n __fish_use_subcommand -f -a %s -d \"%s\"\n", c->name, c->text);
+        printf("complete -c knurl -n \"__fish_seen_subcommand_from %s\" -a \"", c->name);
+        (void)print_values(c, NULL);
+        fputs("\"\n", stdout);
         for (const help_option *o = c->options; o->name; o++) {
-            printf("complete -c knurl -n \"__fish_seen_subcommand_from %s\" -l %s %s-d \"%s\"\n", c->name, o->name + 2,
-                   o->argument[0] ? "-r " : "", o->text);
+            printf("complete -c knurl -n \"__fish_seen_subcommand_from %s\" -l %s %s-a \"", c->name, o->name + 2,
+                   o->argument[0] ? "-r " : "");
+            const int has_values = print_values(c, o);
+            printf("\" %s-d \"%s\"\n", has_values ? "-f " : "", o->text);
         }
     }
 }

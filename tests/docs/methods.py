@@ -93,10 +93,6 @@ def index_html(text, known, default):
     return pairs(r'<option value="(?P<number>\d+)">(?P<name>\w+)</option>', chooser), known
 
 
-def help_c(text, known, default):
-    return re.search(r'#define METHODS "(.*)"', text)[1].split("|"), list(known.values())
-
-
 def scene_py(text, known, default):
     return re.search(r"method: ([^.]*), or None\.", text)[1], ", ".join(f'"{name}"' for name in known.values())
 
@@ -122,7 +118,6 @@ LISTS = {
     "bindings/python/knurl/scene.py": scene_py,
     "bindings/unity/package/Runtime/GratingMethod.cs": method_cs,
     "docs/tagging.md": tagging,
-    "samples/knurl/help.c": help_c,
     "samples/web/index.html": index_html,
     "samples/web/settings.js": settings_js,
 }
@@ -195,7 +190,7 @@ def self_test():
     others = {"a new method": ({**known, last + 1: "other"}, default), "another name": ({**known, last: "other"}, default),
               "other numbers": ({n + 1: name for n, name in known.items()}, default + 1)}
     by_name_only = {"assets/knurl_extras.schema.json", "assets/README.md", "bindings/python/knurl/scene.py",
-                    "docs/tagging.md", "samples/knurl/help.c"}
+                    "docs/tagging.md"}
     return [f"{path}: {what} is not noticed" for what, (table, chosen) in others.items() for path in LISTS
             if not check(path, table, chosen) and not (what == "other numbers" and path in by_name_only)]
 

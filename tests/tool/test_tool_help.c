@@ -35,7 +35,7 @@ TEST(completion_offers_what_commands_take) {
     size_t tried = 0;
     for (size_t i = 0; i < COUNT_OF(commands); i++) {
         char label[64];
-        (void)snprintf(label, sizeof label, "*:%s) words='", commands[i]);
+        (void)snprintf(label, sizeof label, "-*:%s) words='", commands[i]);
         const char *word = strstr(script.out, label);
         assert_non_null(word);
         word += strlen(label);
@@ -55,6 +55,42 @@ TEST(completion_offers_what_commands_take) {
         }
     }
     assert_true(tried >= 35);
+}
+
+/* What bash would offer for the words of a line, the last of which is being typed. */
+static process complete(const char *words) {
+    char script[2048];
+    (void)snprintf(script, sizeof script,
+                   "source <('%s' completion bash); COMP_WORDS=(%s); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); "
+                   "_knurl; echo \"${COMPREPLY[*]}\"",
+                   KNURL_TEST_TOOL, words);
+    return run_tool((const char *const[]){"/bin/bash", "-c", script, NULL});
+}
+
+/* Nothing offered: bash's default, files. */
+TEST(completion_offers_values_where_there_are_some_and_files_elsewhere) {
+    static const struct {
+        const char *words, *offered;
+    } table[] = {{"knurl run ''", "\n"},
+                 {"knurl run a.glb --trace ''", "\n"},
+                 {"knurl run a.glb --out -", "--out"}, /* an option may follow by mistake: options are offered */
+                 {"knurl run a.glb --method ''", "S1 S2 "},
+                 {"knurl run a.glb --method = ba", "bandlimited\n"},
+                 {"knurl run a.glb --method =", "S1 S2 "},
+                 {"knurl scan --method S", "S1 S2\n"},
+                 {"knurl run a.glb --stroke s", "sweep\n"},
+                 {"knurl run --fa", "--fast\n"},
+                 {"knurl signal --method ''", "T1 T2 T3\n"},
+                 {"knurl bench --case paced_pl", "paced_plane"},
+                 {"knurl study tr", "tradeoff tracking transitions\n"},
+                 {"knurl help insp", "inspect\n"},
+                 {"knurl completion ''", "bash zsh fish\n"}};
+    for (size_t i = 0; i < COUNT_OF(table); i++) {
+        SCOPED_PROCESS p = complete(table[i].words);
+        if (strchr(table[i].offered, '\n') ? strcmp(p.out, table[i].offered) != 0 : !strstr(p.out, table[i].offered)) {
+            fail_msg("%s: expected '%s', found '%s' %s", table[i].words, table[i].offered, p.out, p.err);
+        }
+    }
 }
 
 TEST(man_page_and_completions_name_every_command) {
