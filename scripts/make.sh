@@ -14,6 +14,7 @@ demo() {
     build/release/knurl "${DEMO[@]}" --out build/demo/sweep.csv --pretty >build/demo/sweep.json
     /usr/bin/python3 samples/draw_run.py build/demo/sweep.csv build/demo/sweep.svg
     echo 'run: see build/demo/sweep.svg; the ticks are in build/demo/sweep.csv, a summary in build/demo/sweep.json'
+    [ -x build/release/knurl_study ] || echo 'run: this build/release/knurl has no --view, Falcon, raw HID, metrics and study: ./run test installs what they need, and builds them'
 }
 
 # usage: figures [--check]. assets/pictures/NAME.data says what NAME.png was drawn from; --check draws nothing and says

@@ -17,6 +17,12 @@ static int run_study_program(int argc, char **argv) {
     if (code >= 0) {
         return code;
     }
+    if (errno == ENOENT) { /* as after ./run demo */
+        return tool_error(TOOL_FAILURE,
+                          "%s: the program knurl_study, which does this, was not built: expected %s; install "
+                          "libkissfft-dev and build again, or use ./run test",
+                          argv[0], path);
+    }
     return tool_error(TOOL_FAILURE, "%s: the program knurl_study, which does this, cannot be run: %s: %s", argv[0],
                       path, strerror(errno));
 }

@@ -6,9 +6,9 @@
 int view_open(const view_desc *desc, view **opened) {
     (void)desc;
     (void)opened;
-    return tool_error(TOOL_FAILURE, "run: --view: this knurl was built without libwebsockets, as all are for "
-                                    "Windows; elsewhere install libwebsockets-dev, configure with -DKNURL_VIEW=ON and "
-                                    "build it again");
+    return tool_error(TOOL_FAILURE,
+                      "run: --view: this knurl was built without libwebsockets, as all are for "
+                      "Windows; elsewhere install libwebsockets-dev and build it again, or use ./run test");
 }
 
 const char *view_url(const view *v) {
