@@ -61,7 +61,8 @@ static int measure(bench *b, const bench_case *only, report *out) {
         r->outcome = bench_run(b, c, &r->result);
         say_progress_end();
         if (r->outcome == BENCH_INTERRUPTED) {
-            return tool_error(TOOL_INTERRUPTED + interrupted, "bench: interrupted in %s; the cases before it are printed", c->name);
+            return tool_error(TOOL_INTERRUPTED + interrupted,
+                              "bench: interrupted in %s; the cases before it are printed", c->name);
         }
         if (r->outcome == BENCH_FAILED) {
             return tool_library_error(TOOL_FAILURE, c->name);

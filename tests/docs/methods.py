@@ -144,7 +144,6 @@ def completed(path, text, known, fresh, default):
     text = text.replace(any_of(marked[0], ""), any_of(marked[1], ""))
     for quote in ("'", "", "`"):
         text = text.replace(any_of(former, quote), any_of(names, quote))
-    text = text.replace("|".join(former), "|".join(names))
     text = text.replace(", ".join(f'"{n}"' for n in former), ", ".join(f'"{n}"' for n in names))
     text = text.replace(",".join(map(title, former)) + '"', ",".join(map(title, names)) + '"')
     rows = {
