@@ -1,4 +1,6 @@
 /* Another shape in a surface's place: what is touched goes on being touched. SPDX-License-Identifier: MIT */
+#include "proxy/contacts.h"
+
 #include "support/ledger.h"
 #include "support/poses.h"
 
@@ -153,4 +155,22 @@ TEST(the_old_one_s_memory_comes_back) {
     assert_true(knurl_scene_get_bytes(scene) == before && books.bytes == before);
     knurl_scene_destroy(scene);
     assert_true(books.bytes == 0);
+}
+
+/* As a tick finds it: with another surface in its place, or none. */
+TEST(a_contact_with_what_is_no_longer_there_is_over) {
+    for (int gone = 0; gone < 2; gone++) {
+        static knurl_surface_data surface;
+        static knurl_candidate candidate;
+        memset(&candidate, 0, sizeof candidate);
+        surface.generation = 7;
+        candidate.generation = 3;
+        candidate.in_contact = candidate.has_previous = 1;
+        candidate.contact.inside = 1;
+        candidate.guard.depth = candidate.guard.height = 0.001;
+        knurl_contacts_note_change(&candidate, gone ? NULL : &surface);
+        assert_false(candidate.in_contact || candidate.has_previous || candidate.contact.inside);
+        assert_int_equal(candidate.generation, gone ? 3 : 7);
+        CHECK_SAME(candidate.guard.depth + candidate.guard.height, 0.0);
+    }
 }
