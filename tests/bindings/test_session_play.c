@@ -44,7 +44,7 @@ static void record(const knurl_tick_output *output, void *user) {
 
 static void play_by_hand(const knurl_session_desc *how, recording *r) {
     double rows[4 * ROWS];
-    knurl_device *device = NULL;
+    SCOPED_DEVICE *device = NULL;
     knurl_loop *loop = NULL;
     knurl_loop_desc desc;
     knurl_hip_desc hip;
@@ -70,7 +70,6 @@ static void play_by_hand(const knurl_session_desc *how, recording *r) {
     assert_int_equal(knurl_loop_create(&desc, &loop), KNURL_OK);
     assert_int_equal(knurl_loop_step(loop, TICKS), KNURL_OK);
     knurl_loop_destroy(loop);
-    knurl_device_close(device);
 }
 
 static void check_same_forces(const knurl_session_desc *how) {

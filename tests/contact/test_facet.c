@@ -82,7 +82,7 @@ TEST(with_a_kept_facet_everything_is_the_same_to_the_bit) {
 }
 
 TEST(a_surface_in_anothers_place_is_not_felt_by_the_others_facet) {
-    knurl_scene *scene = empty_scene(1);
+    SCOPED_SCENE *scene = empty_scene(1);
     SCOPED_SHAPE sheet = hilly_sheet();
     surface_parts parts = surface_mesh(&sheet);
     const knurl_surface_id first = add_surface(scene, &parts);
@@ -98,5 +98,4 @@ TEST(a_surface_in_anothers_place_is_not_felt_by_the_others_facet) {
     assert_int_equal(tick_at(scene, 0.004, 0.003, 0.001 + hills(0.004, 0.003)).contacts, 0);
     assert_int_equal(tick_at(scene, 0.004, 0.003, -0.001 + hills(0.004, 0.003)).contacts, 1);
     assert_int_equal(facet->side, 0);
-    knurl_scene_destroy(scene);
 }

@@ -64,7 +64,7 @@ TEST(axis_along_the_normal_keeps_a_mesh) {
 
 /* A sheet that faces away from y = 0.6 z: nearest to -z, from where u runs along -x and v along y. */
 TEST(without_axis_tangents_and_uvs_coordinates_are_projected_along_the_nearest_axis) {
-    shape s = DRAWING("####", "####");
+    SCOPED_SHAPE s = DRAWING("####", "####");
     free(s.uvs);
     s.uvs = NULL;
     for (uint32_t v = 0; v < s.vertex_count; v++) {
@@ -92,7 +92,6 @@ TEST(without_axis_tangents_and_uvs_coordinates_are_projected_along_the_nearest_a
     CHECK_CLOSE(o.plane->stretch[0][1], 1.0, 1e-6);
     CHECK_CLOSE(o.plane->stretch[1][1], 0.75 / sqrt(0.75 * 0.75 + 0.25), 1e-6);
     forget(&o);
-    shape_free(&s);
 }
 
 TEST(axis_gives_metres_from_the_meshs_origin) {

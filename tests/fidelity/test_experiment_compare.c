@@ -114,10 +114,9 @@ static void check_same_files(const char *a, const char *b) {
 }
 
 static void session(const char *path, const char *note) {
-    process p = RUN("compare", "S1", "S2", "--fast", "--seed", "9", "--out", path);
+    SCOPED_PROCESS p = RUN("compare", "S1", "S2", "--fast", "--seed", "9", "--out", path);
     assert_int_equal(p.exit_code, 0);
     assert_true(note ? strstr(p.err, note) != NULL : p.sizes[1] == 0);
-    process_free(&p);
 }
 
 TEST(a_session_goes_on_after_its_last_trial) {
@@ -201,13 +200,12 @@ TEST(an_interrupted_session_ends_with_130_and_says_how_to_go_on) {
     const char *const arguments[] = {KNURL_TEST_EXPERIMENT, "compare", "S1",    "S2", "--answers", "simulated",
                                      "--training",          "no",      "--out", path, NULL};
     const struct timespec pause = {0, 300000000L};
-    process p = process_start(arguments, NULL);
+    SCOPED_PROCESS p = process_start(arguments, NULL);
     (void)nanosleep(&pause, NULL);
     (void)kill(p.pid, SIGINT);
     process_finish(&p);
     assert_int_equal(p.exit_code, 130);
     assert_false(file_exists(path));
-    process_free(&p);
 }
 
 TEST(a_comparison_names_the_library_s_methods) {
@@ -285,10 +283,9 @@ TEST(simulated_subjects_answer_by_their_formula_and_the_analysis_counts_them) {
         (void)snprintf(subject, sizeof subject, "s%d", i);
         (void)snprintf(kept[i], sizeof kept[i], "%s", tool_path(subject));
         paths[i] = kept[i];
-        process p = RUN("compare", "S2", "bandlimited", "--fast", "--subject", subject, "--out", paths[i]);
+        SCOPED_PROCESS p = RUN("compare", "S2", "bandlimited", "--fast", "--subject", subject, "--out", paths[i]);
         check_done(&p);
         assert_non_null(strstr(p.out, "SIMULATED answers"));
-        process_free(&p);
     }
     process p = RUN("analyse", paths[0], paths[1], paths[2], paths[3], paths[4], paths[5]);
     check_done(&p);

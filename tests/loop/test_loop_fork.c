@@ -79,7 +79,7 @@ static int in_a_child(int (*what)(knurl_loop *loop, knurl_device *device), knurl
 }
 
 TEST(a_forked_child_waits_for_no_thread_and_the_loop_of_its_parent_goes_on) {
-    knurl_device *device = blocking_device();
+    SCOPED_DEVICE *device = blocking_device();
     knurl_loop *loop = NULL;
     knurl_loop_desc desc;
     knurl_loop_desc_init(&desc, sizeof desc);
@@ -95,5 +95,4 @@ TEST(a_forked_child_waits_for_no_thread_and_the_loop_of_its_parent_goes_on) {
     const knurl_loop_stats after = loop_stats(loop);
     assert_true(after.ticks > before.ticks);
     knurl_loop_destroy(loop);
-    knurl_device_close(device);
 }

@@ -108,13 +108,12 @@ TEST(a_hip_pressed_into_a_plane_is_held_by_the_plane_that_it_slides_into) {
 }
 
 TEST(a_hip_pressed_into_a_mesh_is_held_by_the_mesh_that_it_slides_into) {
-    shape floor = floor_shape(1);
+    SCOPED_SHAPE floor = floor_shape(1);
     SCOPED_SHAPE wall = wall_shape(1);
     surface_parts parts[2] = {surface_shape(&floor), surface_shape(&wall)};
     check_corner(parts, 2, "two meshes");
     surface_parts mixed[2] = {floor_plane(), surface_shape(&wall)};
     check_corner(mixed, 2, "a plane and a mesh");
-    shape_free(&floor);
 }
 
 TEST(a_floor_that_goes_on_beneath_the_wall_does_not_carry_the_hip_under_it) {

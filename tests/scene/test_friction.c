@@ -261,7 +261,7 @@ TEST(friction_leaves_the_normal_force_alone) {
     surface_parts parts = rough_plane(0.0);
     set_grating(&parts, KNURL_METHOD_S2, 700.0, 300.0, 0.0004);
     parts.material.damping = 0.7;
-    knurl_scene *without = pressed(&parts, DEPTH);
+    SCOPED_SCENE *without = pressed(&parts, DEPTH);
     parts.material.friction = 0.8;
     SCOPED_SCENE *with = pressed(&parts, DEPTH);
     uint64_t seed = 6;
@@ -278,7 +278,6 @@ TEST(friction_leaves_the_normal_force_alone) {
         CHECK_SAME(a.height, b.height);
         assert_int_equal(a.event, b.event);
     }
-    knurl_scene_destroy(without);
 }
 
 /* No friction is the surface as it was before there was any: a caller who knows no such key. */
@@ -290,7 +289,7 @@ TEST(friction_0_is_bit_for_bit_a_material_without_the_key) {
         parts.desc.axis[0] = 1.0;
         parts.desc.position[2] = mesh ? -0.03 : 0.0;
         parts.material.damping = 0.4;
-        knurl_scene *zero = scene_of(&parts);
+        SCOPED_SCENE *zero = scene_of(&parts);
         parts.material.friction = 7.0; /* not read */
         parts.material.struct_size = offsetof(knurl_material_desc, friction);
         SCOPED_SCENE *older = scene_of(&parts);
@@ -303,7 +302,6 @@ TEST(friction_0_is_bit_for_bit_a_material_without_the_key) {
             const knurl_tick_output b = tick_at(older, x, 0.3 * x, z);
             check_same_output(&a, &b);
         }
-        knurl_scene_destroy(zero);
     }
 }
 

@@ -121,7 +121,7 @@ static surface_parts grated(const shape *s, int32_t method) {
 }
 
 TEST(collapsed_uvs_do_not_change_the_scale_of_the_others) {
-    shape s = plate();
+    SCOPED_SHAPE s = plate();
     const uint32_t first = s.index_count * 9 / 10; /* the upper two of 20 rows, each quad a hundredth */
     for (uint32_t i = first; i < s.index_count; i++) {
         for (uint32_t k = 0; k < 2; k++) {
@@ -130,17 +130,15 @@ TEST(collapsed_uvs_do_not_change_the_scale_of_the_others) {
     }
     surface_parts parts = grated(&s, KNURL_METHOD_S1);
     CHECK_CLOSE(play_60_mm(&parts), 120.0, 2.0); /* the sheet is a little longer than its shadow */
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     CHECK_CLOSE(info_of(scene).uneven, 0.1, 2e-3); /* by area */
     assert_true(check_of(scene).exceeded & KNURL_LIMIT_STRETCH);
     assert_non_null(strstr(check_of(scene).message, "of its area"));
-    knurl_scene_destroy(scene);
-    shape_free(&s);
 }
 
 TEST(uvs_of_a_palette_count_as_none_and_are_told_where_a_grating_needs_them) {
     static const int32_t methods[] = {KNURL_METHOD_S1, KNURL_METHOD_BANDLIMITED};
-    shape s = plate();
+    SCOPED_SHAPE s = plate();
     for (uint32_t i = 0; i < s.index_count; i++) { /* one colour for each triangle */
         s.uvs[2 * i] = (float)(i / 3 % 8) / 8.0F;
         s.uvs[2 * i + 1] = 0.25F;
@@ -159,10 +157,8 @@ TEST(uvs_of_a_palette_count_as_none_and_are_told_where_a_grating_needs_them) {
         knurl_scene_destroy(scene);
     }
     surface_parts smooth = surface_mesh(&s);
-    knurl_scene *scene = scene_of(&smooth);
+    SCOPED_SCENE *scene = scene_of(&smooth);
     assert_int_equal(check_of(scene).exceeded & KNURL_LIMIT_STRETCH, 0);
-    knurl_scene_destroy(scene);
-    shape_free(&s);
 }
 
 /* --- box coordinates --- */
@@ -175,7 +171,7 @@ static void check_round_trip(const shape *ball, int32_t method, double fs, doubl
     knurl_hip_counts counts;
     surface_parts parts = surface_mesh(ball);
     set_grating(&parts, method, fs, 0.0, A);
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     for (int k = 0; k <= 2000; k++) {
         const double angle = from + 2.0 * pi * k / 2000.0, r = radius - 0.001;
         (void)tick_at(scene, r * sin(angle), 1e-4, r * cos(angle));
@@ -184,25 +180,23 @@ static void check_round_trip(const shape *ball, int32_t method, double fs, doubl
     CHECK_CLOSE((double)counts.half_cycles_played, 2.0 * fs * u, 2.0);
     assert_true(info_of(scene).projection_seams > 0);
     assert_int_equal(check_of(scene).exceeded & KNURL_LIMIT_STRETCH, 0);
-    knurl_scene_destroy(scene);
 }
 
 TEST(a_mesh_without_uvs_is_tagged_with_three_numbers_and_no_half_cycle_is_invented_at_a_seam) {
-    shape ball = shape_sphere(0.03, 5);
+    SCOPED_SHAPE ball = shape_sphere(0.03, 5);
     for (int i = 0; i < 12; i++) {
         check_round_trip(&ball, i % 2 ? KNURL_METHOD_S1 : KNURL_METHOD_BANDLIMITED, 300.0 + 71.3 * i, 0.37 * i);
     }
-    shape_free(&ball);
 }
 
 /* A box of 40 mm: from its top over an edge of 90 degrees, down a side, and back. Ridges along z on top; on the side
  * facing +x they are upright, and none is crossed on the way down. */
 TEST(ridges_of_a_box_stand_on_each_side_as_its_axes_say) {
-    shape box = shape_box((const double[3]){0.02, 0.02, 0.02}, 0);
+    SCOPED_SHAPE box = shape_box((const double[3]){0.02, 0.02, 0.02}, 0);
     surface_parts parts = surface_mesh(&box);
     knurl_hip_counts counts;
     set_grating(&parts, KNURL_METHOD_S1, FS, 0.0, A);
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     for (int k = 0; k <= 150; k++) {
         (void)tick_at(scene, 0.0001 * k, 0.019, 0.001);
     }
@@ -215,14 +209,12 @@ TEST(ridges_of_a_box_stand_on_each_side_as_its_axes_say) {
     assert_int_equal(knurl_scene_get_tick(scene, 0, NULL, &counts), KNURL_OK);
     CHECK_CLOSE((double)counts.half_cycles_played, on_top, 9.0); /* the 4 mm beside the corner, in one leap */
     assert_int_equal(info_of(scene).projection_seams, 12);
-    knurl_scene_destroy(scene);
-    shape_free(&box);
 }
 
 TEST(a_box_takes_no_axis_and_a_shared_shape_no_coordinates) {
-    shape ball = shape_sphere(0.03, 2);
+    SCOPED_SHAPE ball = shape_sphere(0.03, 2);
     surface_parts parts = surface_mesh(&ball);
-    knurl_scene *scene = empty_scene(1);
+    SCOPED_SCENE *scene = empty_scene(1);
     knurl_surface_id first = 0, id = 0;
     parts.desc.coordinates = KNURL_COORDINATES_BOX;
     parts.desc.axis[0] = 1.0;
@@ -241,6 +233,4 @@ TEST(a_box_takes_no_axis_and_a_shared_shape_no_coordinates) {
     assert_int_equal(knurl_scene_add_surface(scene, &parts.desc, &id), KNURL_ERROR_ARGUMENT);
     check_message("coordinates: expected KNURL_COORDINATES_AUTO");
     assert_true(id == 0);
-    knurl_scene_destroy(scene);
-    shape_free(&ball);
 }

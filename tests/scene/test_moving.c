@@ -231,7 +231,7 @@ TEST(arrival_is_exactly_at_the_target) {
         surface_parts parts = wide_plane();
         set_grating(&parts, KNURL_METHOD_S1, 300.0, 170.0, 0.0005);
         place(&parts, &to);
-        knurl_scene *there = scene_of(&parts);
+        SCOPED_SCENE *there = scene_of(&parts);
         place(&parts, &from);
         SCOPED_SCENE *moved = scene_of(&parts);
         move_to(moved, knurl_scene_get_surface(moved, 0), &to, 0.003 * run); /* also 0, also not whole ticks */
@@ -248,7 +248,6 @@ TEST(arrival_is_exactly_at_the_target) {
             assert_true(k == 0 || out.contacts == 1);
             check_same_output(&expected, &out);
         }
-        knurl_scene_destroy(there);
     }
 }
 

@@ -225,7 +225,7 @@ static void compare_gliding(int32_t method, const double velocity[3], double fri
     parts.desc.axis[0] = 1.0;
     parts.material.damping = 0.5;
     parts.material.friction = friction;
-    knurl_scene *moving = scene_of(&parts);
+    SCOPED_SCENE *moving = scene_of(&parts);
     SCOPED_SCENE *resting = scene_of(&parts);
     const double at[3] = {0.0131, -0.0173, -0.0062};
     const double none[3] = {0.0, 0.0, 0.0};
@@ -244,7 +244,6 @@ static void compare_gliding(int32_t method, const double velocity[3], double fri
         touched += out.contacts;
     }
     assert_true(touched > 150);
-    knurl_scene_destroy(moving);
 }
 
 TEST(mesh_that_glides_feels_as_a_hip_that_glides_over_it) {
@@ -263,7 +262,7 @@ static void compare_turning(double omega, double friction) {
     surface_parts parts = surface_mesh(&sheet);
     parts.desc.axis[0] = 1.0;
     parts.material.friction = friction;
-    knurl_scene *moving = scene_of(&parts);
+    SCOPED_SCENE *moving = scene_of(&parts);
     SCOPED_SCENE *resting = scene_of(&parts);
     const double at[3] = {0.0431, -0.0273, -0.0062};
     const double none[3] = {0.0, 0.0, 0.0};
@@ -288,7 +287,6 @@ static void compare_turning(double omega, double friction) {
         assert_int_equal(out.contacts, 1);
         CHECK_VECTOR(out.force, force[0], force[1], force[2], 1e-9L * (1.0 + length3(force)));
     }
-    knurl_scene_destroy(moving);
 }
 
 TEST(mesh_that_turns_feels_as_a_hip_that_circles_over_it) {

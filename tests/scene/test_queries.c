@@ -64,7 +64,7 @@ TEST(the_transform_of_a_moving_surface_is_that_on_its_way) {
 
 TEST(ids_are_valid_while_their_surface_is_in_their_scene) {
     surface_parts parts = surface_plane();
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     SCOPED_SCENE *other = scene_of(&parts);
     const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
     assert_int_equal(knurl_scene_has_surface(scene, id), 1);
@@ -72,7 +72,6 @@ TEST(ids_are_valid_while_their_surface_is_in_their_scene) {
     assert_int_equal(knurl_scene_has_surface(other, id), 0);
     assert_int_equal(knurl_scene_remove_surface(scene, id), KNURL_OK);
     assert_int_equal(knurl_scene_has_surface(scene, id), 0);
-    knurl_scene_destroy(scene);
 }
 
 TEST(user_data_stays_with_a_surface_until_it_is_removed) {
@@ -138,7 +137,7 @@ static nearest find_nearest(const pose *poses, const double *p) {
 
 TEST(the_closest_point_of_three_surfaces_is_the_closest_of_each_ones) {
     uint64_t seed = 5;
-    shape box = shape_box(half_edges[1], 0);
+    SCOPED_SHAPE box = shape_box(half_edges[1], 0);
     SCOPED_SHAPE sheet = shape_sheet(1, 1, half_edges[2], flat);
     surface_parts parts[3] = {surface_plane(), surface_mesh(&box), surface_mesh(&sheet)};
     for (int round = 0; round < 40; round++) {
@@ -171,7 +170,6 @@ TEST(the_closest_point_of_three_surfaces_is_the_closest_of_each_ones) {
             assert_true(found.surface == ids[n.surface]);
         }
     }
-    shape_free(&box);
 }
 
 TEST(the_normal_at_the_closest_point_is_the_fronts) {
@@ -299,7 +297,7 @@ static int check_ray(const three *t, const double from[3], const double to[3]) {
 TEST(a_ray_hits_the_first_of_three_surfaces) {
     uint64_t seed = 9;
     int hits[4] = {0};
-    shape box = shape_box(THREE_HALVES[1], 0);
+    SCOPED_SHAPE box = shape_box(THREE_HALVES[1], 0);
     SCOPED_SHAPE sheet = shape_sheet(1, 1, THREE_HALVES[2], flat);
     surface_parts parts[3] = {surface_plane(), surface_mesh(&box), surface_mesh(&sheet)};
     parts[2].desc.double_sided = 1;
@@ -316,7 +314,6 @@ TEST(a_ray_hits_the_first_of_three_surfaces) {
         knurl_scene_destroy(t.scene);
     }
     assert_true(hits[0] > 100 && hits[1] > 100 && hits[2] > 100 && hits[3] > 100);
-    shape_free(&box);
 }
 
 TEST(a_ray_ends_where_it_is_told_to_and_meets_a_surface_where_it_is_now) {

@@ -140,7 +140,7 @@ static void go_on(wander *w, const knurl_tick_output *out, double speed) {
 static void check_continuous(const smooth_mesh *m, double speed, const char *what) {
     surface_parts parts = smooth_surface(m, 1);
     parts.material.stiffness = K;
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     wander w = {{0.0, 0.0, 0.035}, {0.0, 0.0, 0.0}, 17};
     knurl_tick_output last = tick_at(scene, w.at[0], w.at[1], w.at[2]);
     double worst = 0.0;
@@ -156,7 +156,6 @@ static void check_continuous(const smooth_mesh *m, double speed, const char *wha
     (void)printf("%s: %ld of 200000 ticks felt; the force changed by at most %.4f K times the way\n", what, felt,
                  worst);
     assert_true(felt > 10000 && worst < 1.02);
-    knurl_scene_destroy(scene);
 }
 
 TEST(force_is_continuous_on_smooth_bodies) {

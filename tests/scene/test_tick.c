@@ -184,7 +184,7 @@ TEST(damping_acts_along_the_normal_and_never_pulls) {
 /* The same stroke over a surface at the origin and over one elsewhere. */
 static void compare_poses(surface_parts *parts, uint64_t seed) {
     const pose there = random_pose(&seed);
-    knurl_scene *here = scene_of(parts);
+    SCOPED_SCENE *here = scene_of(parts);
     memcpy(parts->desc.position, there.position, sizeof there.position);
     memcpy(parts->desc.rotation, there.quaternion, sizeof there.quaternion);
     SCOPED_SCENE *moved = scene_of(parts);
@@ -210,7 +210,6 @@ static void compare_poses(surface_parts *parts, uint64_t seed) {
         assert_int_equal(out.flags, expected.flags);
         assert_int_equal(out.event, expected.event);
     }
-    knurl_scene_destroy(here);
 }
 
 TEST(surface_elsewhere_feels_the_same) {
@@ -320,7 +319,7 @@ TEST(grating_from_behind_is_that_of_the_surface_turned_over) {
     surface_parts parts = grating_plane(KNURL_METHOD_S1, 310.0, 170.0);
     parts.material.orientation = 0.7;
     parts.desc.double_sided = 1;
-    knurl_scene *behind = scene_of(&parts);
+    SCOPED_SCENE *behind = scene_of(&parts);
     parts.desc.double_sided = 0;
     parts.desc.rotation[0] = 1.0;
     parts.desc.rotation[3] = 0.0;
@@ -338,7 +337,6 @@ TEST(grating_from_behind_is_that_of_the_surface_turned_over) {
         CHECK_CLOSE(out.surface_velocity[0], expected.surface_velocity[0], 1e-12L);
         CHECK_CLOSE(out.surface_velocity[1], expected.surface_velocity[1], 1e-12L);
     }
-    knurl_scene_destroy(behind);
 }
 
 /* TEXCOORD_0 would say +x; TANGENT says 30 degrees from it, leaning out of the surface, and not of unit length. */

@@ -315,7 +315,7 @@ TEST(a_batch_is_its_ticks_one_by_one) {
     static knurl_tick_input inputs[TICKS];
     static knurl_tick_output outputs[TICKS];
     surface_parts parts = s2_plane();
-    knurl_scene *single = scene_of(&parts);
+    SCOPED_SCENE *single = scene_of(&parts);
     SCOPED_SCENE *batched = scene_of(&parts);
     for (int k = 0; k < TICKS; k++) {
         inputs[k].position[0] = 0.03 * sin(0.023 * k);
@@ -333,7 +333,6 @@ TEST(a_batch_is_its_ticks_one_by_one) {
     assert_int_equal(knurl_scene_tick_batch(batched, 0, inputs, 3, outputs), KNURL_ERROR_ARGUMENT);
     assert_true(outputs[2].tick == TICKS + 1); /* the one in the middle was none */
     assert_int_equal(knurl_scene_tick_batch(batched, 0, inputs, 0, outputs), KNURL_OK);
-    knurl_scene_destroy(single);
 }
 
 TEST(configuring_a_hip_forgets_what_it_did) {

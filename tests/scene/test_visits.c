@@ -239,7 +239,7 @@ static uint32_t exceeded_by(const shape *s, double amplitude) {
 
 TEST(the_check_at_load_warns_of_meshes_that_meet_the_limit) {
     shape ball = shape_sphere(0.01, 5);
-    shape earth = globe(96, 48);
+    SCOPED_SHAPE earth = globe(96, 48);
     SCOPED_SHAPE heap = heap_of_triangles(2000);
     assert_int_equal(exceeded_by(&ball, 0.02), KNURL_LIMIT_VISITS);
     assert_int_equal(exceeded_by(&heap, 0.0), KNURL_LIMIT_VISITS);
@@ -247,7 +247,6 @@ TEST(the_check_at_load_warns_of_meshes_that_meet_the_limit) {
     assert_int_equal(exceeded_by(&ball, 0.0), 0);
     assert_int_equal(exceeded_by(&earth, 0.0005), 0);
     shape_free(&ball);
-    shape_free(&earth);
 }
 
 /* Spheres one 10 um beside the other: the first one's check. */

@@ -255,7 +255,7 @@ static int is_value(const char *json, const char *name, const char *key, const c
 }
 
 TEST(inspect_tells_the_model_and_why) {
-    process reduced = RUN_TOOL("inspect", write_plate("plate.gltf", TAG));
+    SCOPED_PROCESS reduced = RUN_TOOL("inspect", write_plate("plate.gltf", TAG));
     SCOPED_PROCESS full = RUN_TOOL("inspect", tool_path("plate.gltf"), "--full-model");
     check_done(&reduced);
     check_done(&full);
@@ -264,7 +264,6 @@ TEST(inspect_tells_the_model_and_why) {
     assert_true(strncmp(value_of(reduced.out, "plate", "why"), value_of(full.out, "plate", "why"), 12) != 0);
     assert_true(json_number_of(reduced.out, "model_error") <= 1e-9);
     CHECK_SAME(json_number_of(full.out, "model_error"), 0.0L); /* the mesh itself */
-    process_free(&reduced);
 }
 
 /* One corner of four a distance d above the plane of the others: no plane comes nearer to all of them than d/4, and
@@ -320,7 +319,7 @@ static void remove_spaces(char *text) {
 }
 
 TEST(pretty_is_the_same_json_over_several_lines) {
-    process one = RUN_TOOL("inspect", plate);
+    SCOPED_PROCESS one = RUN_TOOL("inspect", plate);
     SCOPED_PROCESS many = RUN_TOOL("inspect", plate, "--pretty");
     check_done(&one);
     check_done(&many);
@@ -329,7 +328,6 @@ TEST(pretty_is_the_same_json_over_several_lines) {
     remove_spaces(one.out);
     remove_spaces(many.out);
     assert_string_equal(one.out, many.out);
-    process_free(&one);
 }
 
 TEST(inspect_of_an_untagged_file_finds_nothing_and_hints) {
@@ -343,7 +341,7 @@ TEST(inspect_of_an_untagged_file_finds_nothing_and_hints) {
 
 TEST(devices_are_listed_for_people_and_as_json) {
     static const char *const names[] = {"fake", "touch", "falcon", "rawhid"};
-    process people = RUN_TOOL("devices");
+    SCOPED_PROCESS people = RUN_TOOL("devices");
     SCOPED_PROCESS json = RUN_TOOL("devices", "--json");
     check_done(&people);
     check_done(&json);
@@ -355,20 +353,18 @@ TEST(devices_are_listed_for_people_and_as_json) {
         assert_non_null(strstr(json.out, quoted));
     }
     assert_non_null(strstr(people.out, "hand_stiffness")); /* and how the fake one is set up */
-    process_free(&people);
 }
 
 TEST(version_and_help_are_no_errors) {
     char expected[64];
     (void)snprintf(expected, sizeof expected, "knurl %d.%d.%d\n", KNURL_VERSION_MAJOR, KNURL_VERSION_MINOR,
                    KNURL_VERSION_PATCH);
-    process version = RUN_TOOL("--version");
+    SCOPED_PROCESS version = RUN_TOOL("--version");
     SCOPED_PROCESS help = RUN_TOOL("--help");
     check_done(&version);
     check_done(&help);
     assert_string_equal(version.out, expected);
     assert_non_null(strstr(help.out, "knurl run"));
-    process_free(&version);
 }
 
 TEST(a_full_disk_does_not_look_like_success) {

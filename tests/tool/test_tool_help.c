@@ -95,7 +95,7 @@ TEST(completion_offers_values_where_there_are_some_and_files_elsewhere) {
 
 TEST(man_page_and_completions_name_every_command) {
     process man = RUN_TOOL("man");
-    process zsh = RUN_TOOL("completion", "zsh");
+    SCOPED_PROCESS zsh = RUN_TOOL("completion", "zsh");
     SCOPED_PROCESS fish = RUN_TOOL("completion", "fish");
     for (size_t i = 0; i < COUNT_OF(commands); i++) {
         char heading[64];
@@ -105,7 +105,6 @@ TEST(man_page_and_completions_name_every_command) {
         check_has(fish.out, commands[i]);
     }
     process_free(&man);
-    process_free(&zsh);
 }
 
 TEST(near_misses_are_guessed) {
@@ -127,24 +126,22 @@ TEST(near_misses_are_guessed) {
 
 TEST(a_value_may_follow_an_equals_sign) {
     process apart = RUN_TOOL("signal", "--method", "T1", "--period-ms", "3", "--ticks", "6");
-    process joined = RUN_TOOL("signal", "--method=T1", "--period-ms=3", "--ticks=6");
+    SCOPED_PROCESS joined = RUN_TOOL("signal", "--method=T1", "--period-ms=3", "--ticks=6");
     SCOPED_PROCESS flag = RUN_TOOL("devices", "--json=yes");
     assert_int_equal(joined.exit_code, 0);
     assert_string_equal(joined.out, apart.out);
     assert_int_equal(flag.exit_code, 2);
     check_has(flag.err, "--json takes no value, found 'yes'");
     process_free(&apart);
-    process_free(&joined);
 }
 
 TEST(inspect_checks_for_build_pipelines) {
-    process good = RUN_TOOL("inspect", "--check", plate);
+    SCOPED_PROCESS good = RUN_TOOL("inspect", "--check", plate);
     assert_int_equal(good.exit_code, 0);
     write_text(tool_path("untagged.gltf"), "{\"asset\": {\"version\": \"2.0\"}}");
     SCOPED_PROCESS untagged = RUN_TOOL("inspect", "--check", tool_path("untagged.gltf"));
     assert_int_equal(untagged.exit_code, 3);
     check_has(untagged.err, "found 0 surfaces");
-    process_free(&good);
 }
 
 /* A trace of one row, with this header. */
@@ -171,12 +168,11 @@ TEST(headers_that_were_written_otherwise_are_told_by_what_was_found) {
 }
 
 TEST(a_trace_in_millimetres_is_warned_of) {
-    process mm = play("t,x,y,z", "0,-50,0,0\n1,50,0,0");
+    SCOPED_PROCESS mm = play("t,x,y,z", "0,-50,0,0\n1,50,0,0");
     SCOPED_PROCESS m = play("t,x,y,z", "0,-0.05,0,0\n1,0.05,0,0");
     check_has(mm.err, "x spans 100 m");
     check_has(mm.err, "millimetres?");
     assert_null(strstr(m.err, "millimetres"));
-    process_free(&mm);
 }
 
 SUITE_FIXTURES(make_folder, remove_folder)

@@ -141,8 +141,8 @@ TEST(the_full_model_feels_the_same) {
     static const char *const methods[] = {"S1", "S2", "bandlimited"};
     static const char *const devices[] = {"fake:?resolution=0", "fake", "fake:?resolution=0"};
     for (size_t i = 0; i < COUNT_OF(methods); i++) {
-        process reduced = RUN_TOOL("run", plate, "--fast", "--stroke", "sweep", "--seconds", "2", "--method",
-                                   methods[i], "--device", devices[i], "--out", tool_path("reduced.csv"));
+        SCOPED_PROCESS reduced = RUN_TOOL("run", plate, "--fast", "--stroke", "sweep", "--seconds", "2", "--method",
+                                          methods[i], "--device", devices[i], "--out", tool_path("reduced.csv"));
         SCOPED_PROCESS full =
             RUN_TOOL("run", plate, "--fast", "--stroke", "sweep", "--seconds", "2", "--method", methods[i], "--device",
                      devices[i], "--out", tool_path("full.csv"), "--full-model");
@@ -166,7 +166,6 @@ TEST(the_full_model_feels_the_same) {
         assert_true(touching > 1000);
         free(first);
         free(second);
-        process_free(&reduced);
     }
 }
 

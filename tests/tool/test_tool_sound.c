@@ -68,7 +68,7 @@ TEST(a_stroke_at_250_hz_sounds_at_250_hz) {
 
 TEST(real_time_gives_the_same_sound_as_fast) {
     const char *path = write_plate("plate.gltf", TAG);
-    process a = RUN_TOOL("run", path, "--seconds", "1", "--wav", tool_path("a.wav"), "--fast");
+    SCOPED_PROCESS a = RUN_TOOL("run", path, "--seconds", "1", "--wav", tool_path("a.wav"), "--fast");
     SCOPED_PROCESS b = RUN_TOOL("run", path, "--seconds", "1", "--wav", tool_path("b.wav"));
     static double of[2][48000];
     check_done(&a);
@@ -76,7 +76,6 @@ TEST(real_time_gives_the_same_sound_as_fast) {
     assert_int_equal(read_wav(tool_path("a.wav"), of[0], 48000), 48000);
     assert_int_equal(read_wav(tool_path("b.wav"), of[1], 48000), 48000);
     assert_memory_equal(of[0], of[1], sizeof of[0]);
-    process_free(&a);
 }
 
 TEST(a_sound_does_not_replace_the_model) {

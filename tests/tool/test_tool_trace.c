@@ -83,11 +83,10 @@ TEST(an_exact_trace_stays_exact) {
 }
 
 TEST(a_resolution_in_the_uri_holds) {
-    process p = play(record("counts.csv", 0.055e-3, 17), "--device", "fake:?resolution=0.0001");
+    SCOPED_PROCESS p = play(record("counts.csv", 0.055e-3, 17), "--device", "fake:?resolution=0.0001");
     check_done(&p);
     CHECK_CLOSE(json_number_of(p.out, "resolution_m"), 0.0001L, 1e-15L);
     assert_int_equal(p.sizes[1], 0);
-    process_free(&p);
 }
 
 TEST(a_trace_comes_from_standard_input) {
@@ -113,10 +112,9 @@ TEST(a_trace_comes_from_standard_input) {
 
 TEST(a_short_trace_that_touches_nothing_is_told) {
     write_text(tool_path("high.csv"), "t,x,y,z\n0,0.25,0.52,-0.125\n0.1,0.26,0.52,-0.125\n");
-    process p = RUN_TOOL("run", write_plate("plate.gltf", TAG), "--fast", "--trace", tool_path("high.csv"));
+    SCOPED_PROCESS p = RUN_TOOL("run", write_plate("plate.gltf", TAG), "--fast", "--trace", tool_path("high.csv"));
     assert_int_equal(p.exit_code, 4);
     assert_non_null(strstr(p.err, "nothing was touched in 0.101 s"));
-    process_free(&p);
 }
 
 SUITE_FIXTURES(make_folder, remove_folder)

@@ -20,7 +20,7 @@ static void write_for(knurl_device *device, const double force[3], int ms) {
 /* The end of the process waits until each device is quiet: until its zero was sent. */
 TEST(a_device_is_quiet_only_after_a_zero_that_it_accepted) {
     for (uint32_t blocking = 0; blocking < 2; blocking++) {
-        knurl_device *device = home_open(&h, blocking);
+        SCOPED_DEVICE *device = home_open(&h, blocking);
         write_for(device, push, 5);
         assert_int_equal(knurl_load_acquire(&device->quiet), 0);
         knurl_store_release(&h.write_gives, KNURL_ERROR_DEVICE_NOT_READY);
@@ -29,13 +29,12 @@ TEST(a_device_is_quiet_only_after_a_zero_that_it_accepted) {
         knurl_store_release(&h.write_gives, KNURL_OK);
         write_for(device, zero, 5);
         assert_int_equal(knurl_load_acquire(&device->quiet), 1);
-        knurl_device_close(device);
     }
 }
 
 TEST(silence_is_reported_again_after_a_reopening) {
     knurl_device_sample sample;
-    knurl_device *device = home_open(&h, 0);
+    SCOPED_DEVICE *device = home_open(&h, 0);
     for (int round = 0; round < 2; round++) {
         h.read_gives = KNURL_OK;
         assert_int_equal(knurl_device_read(device, &sample), KNURL_OK);
@@ -55,5 +54,4 @@ TEST(silence_is_reported_again_after_a_reopening) {
         }
         assert_int_equal(next_code(device, 0), KNURL_FAULT_SILENT);
     }
-    knurl_device_close(device);
 }

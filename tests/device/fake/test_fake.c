@@ -89,14 +89,13 @@ TEST(every_key_that_is_listed_is_taken_with_its_default) {
         assert_non_null(strchr(line, '\n')); /* each on a line of its own */
     }
     assert_true(keys >= 10);
-    knurl_device *device = open_device(uri);
+    SCOPED_DEVICE *device = open_device(uri);
     SCOPED_DEVICE *standard = open_device("fake");
     for (int tick = 0; tick < 500; tick++) {
         const knurl_device_sample one = read_one(device);
         const knurl_device_sample other = read_one(standard);
         assert_memory_equal(&one, &other, sizeof one);
     }
-    knurl_device_close(device);
 }
 
 TEST(what_is_no_device_is_unknown) {
