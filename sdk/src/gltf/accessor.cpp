@@ -35,8 +35,8 @@ T value_at(const unsigned char *at) {
 /// filter.cpp limits all numbers to 2^31.
 void locate(const Model &model, int view_index, size_t offset, bool strided, Elements &elements,
             const std::string &where) {
-    const tinygltf::BufferView &view = model.filtered.views.at(view_index);
-    const Bytes &bytes = model.buffers.at(view.buffer);
+    const tinygltf::BufferView &view = model.views.at(view_index);
+    const Bytes &bytes = model.buffers.at(view.buffer).bytes;
     const std::string view_label = "bufferView " + std::to_string(view_index);
     if (uint64_t{view.byteOffset} + view.byteLength > bytes.size)
         refuse(where, view_label + " ends at byte " + std::to_string(uint64_t{view.byteOffset} + view.byteLength) +
@@ -155,7 +155,7 @@ std::vector<T> read_elements(const Model &model, const tinygltf::Accessor &acces
 /// An accessor, and its name in messages.
 struct Source {
     Source(const Model &model, int index, const std::string &where)
-        : accessor(model.filtered.accessors.at(index)), place(where + " (accessor " + std::to_string(index) + ")") {}
+        : accessor(model.accessors.at(index)), place(where + " (accessor " + std::to_string(index) + ")") {}
 
     const tinygltf::Accessor &accessor;
     std::string place;

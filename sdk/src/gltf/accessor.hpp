@@ -3,7 +3,7 @@
 #ifndef KNURL_GLTF_ACCESSOR_HPP
 #define KNURL_GLTF_ACCESSOR_HPP
 
-#include "model.hpp"
+#include "filter.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -7,6 +7,7 @@ namespace knurl::gltf {
 namespace {
 
 constexpr uint32_t surfaces_default = uint32_t{1} << 16U;
+constexpr uint32_t surfaces_max = uint32_t{1} << 20U; // of knurl_scene_desc
 constexpr double seconds_default = 60.0;
 
 // Defaults: a fixed number for every file, plus some per byte read. A vertex takes at least 3 bytes in a file, a

@@ -19,9 +19,6 @@ constexpr uint64_t bytes_max = uint64_t{1} << 30U;
 constexpr uint64_t vertices_max = uint64_t{1} << 28U;
 constexpr uint64_t triangles_max = uint64_t{1} << 26U;
 
-/** The most surfaces that a scene can hold. */
-constexpr uint32_t surfaces_max = uint32_t{1} << 20U;
-
 class Budget {
   public:
     /** Throws Failure for limits out of their ranges. */

@@ -47,7 +47,7 @@ class Filter {
         : root_(root), accessors_(root_.array("accessors").size()), views_(root_.array("bufferViews").size()),
           buffers_(root_.array("buffers").size()) {}
 
-    Filtered run(const Outline &outline) {
+    Model run(const Outline &outline) {
         for (const Instance &instance : outline.instances) {
             for (int32_t node = static_cast<int32_t>(instance.node); node >= 0;
                  node = outline.parents[static_cast<size_t>(node)]) {
@@ -200,15 +200,35 @@ class Filter {
 
     const Fields &root_;
     size_t accessors_, views_, buffers_; ///< of the whole file
-    Filtered filtered_;
+    Model filtered_;
     std::map<std::tuple<uint32_t, uint32_t, bool>, uint32_t> primitive_places_; ///< by mesh, primitive, smoothness
     std::map<PrimitiveKey, size_t> same_primitives_;
 };
 
+Bytes read_buffer(int number, const BufferSource &source, const Resources &resources, Sources &sources) {
+    const std::string where = "buffer " + std::to_string(number);
+    if (source.uri != nullptr)
+        return sources.read(*source.uri, source.byte_length, resources, where);
+    const std::optional<Bytes> &bin = resources.bin;
+    if (number != 0 || !bin)
+        refuse(where, "uri: missing: expected one; only buffer 0 of a .glb with a BIN chunk may omit it");
+    if (bin->size < source.byte_length)
+        refuse(where, "byteLength: expected at most " + std::to_string(bin->size) + " (the BIN chunk), found " +
+                          std::to_string(source.byte_length));
+    return {bin->data, source.byte_length};
+}
+
 } // namespace
 
-Filtered filter(const Fields &root, const Outline &outline) {
+Model filter(const Fields &root, const Outline &outline) {
     return Filter(root).run(outline);
+}
+
+void load_buffers(Model &model, const Resources &resources) {
+    for (auto &[number, source] : model.buffers) {
+        source.bytes = read_buffer(number, source, resources, model.sources);
+        resources.budget->step();
+    }
 }
 
 } // namespace knurl::gltf

@@ -4,6 +4,7 @@
 #ifndef KNURL_GLTF_FILTER_HPP
 #define KNURL_GLTF_FILTER_HPP
 
+#include "files.hpp"
 #include "outline.hpp"
 #include "tinygltf.hpp"
 
@@ -15,20 +16,25 @@ namespace knurl::gltf {
 struct BufferSource {
     uint32_t byte_length = 0;
     const std::string *uri = nullptr; ///< in the file's JSON; null: the BIN chunk
+    Bytes bytes;                      ///< see load_buffers()
 };
 
 /** By their numbers in the file, except primitives. */
-struct Filtered {
+struct Model {
     std::map<int, tinygltf::Node> nodes;
     std::map<int, tinygltf::Accessor> accessors;
     std::map<int, tinygltf::BufferView> views;
     std::map<int, BufferSource> buffers;
     std::vector<tinygltf::Primitive> primitives;
     std::vector<uint32_t> instance_primitives; ///< for each instance of the outline, its place in `primitives`
+    Sources sources;
 };
 
 /** root: must outlive the result. Throws Failure. */
-Filtered filter(const Fields &root, const Outline &outline);
+Model filter(const Fields &root, const Outline &outline);
+
+/** Reads the model's buffers. Throws Failure. */
+void load_buffers(Model &model, const Resources &resources);
 
 /** The vertex attributes that are read, POSITION first, with their numbers per element. */
 struct Attribute {

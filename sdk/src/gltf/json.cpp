@@ -8,7 +8,7 @@ namespace knurl::gltf {
 
 std::optional<bool> Json::flag() const {
     const bool *value = std::get_if<bool>(&value_);
-    return value != nullptr ? std::optional<bool>(*value) : std::nullopt;
+    return value != nullptr ? std::optional(*value) : std::nullopt;
 }
 
 std::optional<double> Json::number() const {

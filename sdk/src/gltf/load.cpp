@@ -3,7 +3,7 @@
 #include <knurl/gltf.h>
 
 #include "container.hpp"
-#include "model.hpp"
+#include "filter.hpp"
 #include "names.hpp"
 #include "placement.hpp"
 
@@ -129,12 +129,12 @@ class Maker {
         budget_.step(read_done);
         for (size_t i = 0; i < outline_.instances.size(); ++i) {
             const Instance &instance = outline_.instances[i];
-            const uint32_t place = model_.filtered.instance_primitives[i];
+            const uint32_t place = model_.instance_primitives[i];
             const Frame frame = placement.frame(instance.node);
             const auto [known, fresh] = shapes_.try_emplace(key_of(instance, place, frame));
             if (fresh) {
                 const std::string where = where_of(root_, instance);
-                const GeometryCount count = count_geometry(model_, model_.filtered.primitives[place], where);
+                const GeometryCount count = count_geometry(model_, model_.primitives[place], where);
                 budget_.take_shape(count.elements, count.triangles, where);
                 known->second.triangles = count.triangles;
                 triangles_ += count.triangles;
@@ -170,7 +170,7 @@ class Maker {
     /// Makes a shape for the first instance that needs it.
     knurl_surface_id add_shape(Addition &addition, size_t i, knurl_surface_desc surface, const std::string &where) {
         const Frame &frame = plans_[i].frame;
-        const tinygltf::Primitive &from = model_.filtered.primitives[model_.filtered.instance_primitives[i]];
+        const tinygltf::Primitive &from = model_.primitives[model_.instance_primitives[i]];
         Geometry geometry = read_geometry(model_, from, where);
         bake(geometry, frame, where, from.attributes.at("POSITION"));
         const knurl_mesh_desc mesh = mesh_of(geometry);
@@ -203,16 +203,13 @@ knurl_gltf_report add_surfaces(knurl_scene *scene, Bytes bytes, std::optional<fs
     report.skipped = outline.skipped;
     if (outline.instances.empty())
         return report; // do not read buffers for nothing
-    Model model;
-    load_model(filter(root, outline), {container.bin, std::move(folder), &budget}, model);
+    Model model = filter(root, outline);
+    load_buffers(model, {container.bin, std::move(folder), &budget});
     report.surfaces = Maker(root, outline, model, budget, scene).run();
     return report;
 }
 
-/// Size of a report and of options in version 0.1, the smallest that callers can pass.
-constexpr uint32_t report_size_first = 16;
-constexpr uint32_t options_size_first = 8;
-
+/// least: the struct's size in version 0.1.
 void check_size(uint32_t size, uint32_t least, const char *type) {
     if (size < least || size > 65536)
         throw Failure(KNURL_ERROR_ARGUMENT, std::string(type) + ".struct_size: expected the value set by " + type +
@@ -225,7 +222,7 @@ knurl_gltf_options complete(const knurl_gltf_options *options) {
     if (options == nullptr)
         return all;
     const uint32_t size = options->struct_size;
-    check_size(size, options_size_first, "knurl_gltf_options");
+    check_size(size, 8, "knurl_gltf_options");
     const auto *bytes = reinterpret_cast<const unsigned char *>(options);
     for (size_t i = sizeof all; i < size; ++i)
         if (bytes[i] != 0)
@@ -243,7 +240,7 @@ knurl_result guarded(const char *name, const knurl_gltf_options *options, knurl_
     try {
         Budget budget(complete(options));
         if (report != nullptr)
-            check_size(report->struct_size, report_size_first, "knurl_gltf_report");
+            check_size(report->struct_size, 16, "knurl_gltf_report");
         const knurl_gltf_report counts = load(budget);
         if (report != nullptr) {
             report->surfaces = counts.surfaces;

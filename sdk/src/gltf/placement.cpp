@@ -22,7 +22,7 @@ constexpr double flat_tolerance = 1e-9;
 constexpr double shortest_axis = 1e-100;
 
 const tinygltf::Node &node_at(const Model &model, uint32_t number) {
-    return model.filtered.nodes.at(static_cast<int>(number));
+    return model.nodes.at(static_cast<int>(number));
 }
 
 std::string node_label(const Model &model, uint32_t number) {
