@@ -51,6 +51,21 @@ class Module(unittest.TestCase):
         scene.commit()
         np.testing.assert_allclose(scene.tick(pressed(0.001))["force"][-1], [0.0, 0.0, 0.4], atol=1e-7)
 
+    def test_a_mesh_with_normals_is_felt_as_smooth_as_they_say(self):
+        x = np.array([-0.01, 0.01]) # a chord of a cylinder of 50 mm round y, whose top is 50 mm up
+        corners = np.array([[a, b, np.sqrt(0.05**2 - a**2)] for a in x for b in (-0.02, 0.02)])
+        normals = corners * [1, 0, 1] / 0.05
+        top = {}
+        for name, given in (("flat", None), ("smooth", normals)):
+            scene = knurl.Scene()
+            scene.add_mesh(corners, [[0, 2, 3], [0, 3, 1]], normals=given, axis=(0, 1, 0),
+                           material=knurl.Material(stiffness=400.0))
+            scene.configure_hip(**STRAIGHT)
+            scene.commit()
+            top[name] = scene.tick(pressed(0.002) + [0, 0, 0.05])["force"][-1][2]
+        self.assertAlmostEqual(top["smooth"], 0.4 * 2.0, places=2) # 2 mm below the cylinder
+        self.assertAlmostEqual(top["flat"], 0.4 * (2.0 - 1e3 * (0.05 - np.sqrt(0.05**2 - 0.01**2))), places=3)
+
     def test_a_batch_is_the_same_as_its_rows_one_by_one(self):
         results = []
         for parts in (1, 500):

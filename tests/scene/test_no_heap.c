@@ -121,6 +121,27 @@ static void add_plane_and_mesh(knurl_scene *scene, int32_t method, double fricti
     add_touched(scene, &sheet, method, 0.09);
 }
 
+/* The same, smooth and coarser. */
+static void add_plane_and_smooth_mesh(knurl_scene *scene, int32_t method, double friction) {
+    SCOPED_SHAPE mesh = shape_sheet(16, 12, (const double[2]){0.05, 0.05}, hills);
+    float normals[3 * 17 * 13];
+    surface_parts plane = surface_plane();
+    surface_parts sheet = surface_mesh(&mesh);
+    assert_int_equal(3 * mesh.vertex_count, COUNT_OF(normals));
+    for (size_t i = 0; i < COUNT_OF(normals); i += 3) {
+        const double x = (double)mesh.positions[i], y = (double)mesh.positions[i + 1];
+        const double slopes[2] = {0.12 * cos(60.0 * x) * cos(45.0 * y), -0.09 * sin(60.0 * x) * sin(45.0 * y)};
+        const double size = sqrt(1.0 + slopes[0] * slopes[0] + slopes[1] * slopes[1]);
+        normals[i] = (float)(-slopes[0] / size);
+        normals[i + 1] = (float)(-slopes[1] / size);
+        normals[i + 2] = (float)(1.0 / size);
+    }
+    sheet.mesh.normals = normals;
+    plane.material.friction = sheet.material.friction = friction;
+    add_touched(scene, &plane, method, 0.0);
+    add_touched(scene, &sheet, method, 0.09);
+}
+
 /* A floor of 40 x 50 tiles side by side: more than a HIP can keep in view, and one hands it over to the next. */
 static void add_tiles(knurl_scene *scene, int32_t method, double friction) {
     surface_parts tile = surface_plane();
@@ -182,6 +203,8 @@ static const struct stroked {
 } scenes[] = {
     {"plane and mesh, S1", add_plane_and_mesh, NULL, KNURL_METHOD_S1, 0, 0.0, 0},
     {"plane and mesh, S2", add_plane_and_mesh, NULL, KNURL_METHOD_S2, 0, 0.0, 0},
+    {"plane and smooth mesh", add_plane_and_smooth_mesh, NULL, KNURL_METHOD_S1, 0, 0.0, 0},
+    {"plane and smooth mesh that move, friction", add_plane_and_smooth_mesh, move_both, KNURL_METHOD_S2, 0, 0.4, 0},
     {"friction", add_plane_and_mesh, NULL, KNURL_METHOD_S2, 0, 0.4, 0},
     {"all that a scene can model", add_plane_and_mesh, NULL, KNURL_METHOD_S2, KNURL_FULL_ALL, 0.4, 0},
     {"surfaces that move", add_plane_and_mesh, move_both, KNURL_METHOD_S2, 0, 0.0, 0},

@@ -212,3 +212,44 @@ TEST(a_moved_smooth_mesh_pushes_likewise) {
     knurl_scene_destroy(there);
     smooth_free(&m);
 }
+
+/* A rough sheet with any normals, up to 65 degrees off the mean: finite, never a pull, held as by its triangles, and at
+ * most the bulge deeper. */
+TEST(whatever_the_normals_the_force_is_bounded) {
+    uint64_t seed = 5;
+    for (int round = 0; round < 40; round++) {
+        const double tilt = 0.03 * round;
+        smooth_mesh m = {shape_sheet(12, 12, (const double[2]){0.03, 0.03}, NULL), NULL};
+        m.normals = calloc(m.s.vertex_count, 3 * sizeof(float));
+        for (uint32_t v = 0; v < m.s.vertex_count; v++) {
+            const double a = random_between(&seed, 0.0, 2.0 * SMOOTH_PI), t = random_between(&seed, 0.0, tilt);
+            m.s.positions[3 * v + 2] = (float)random_between(&seed, 0.0, 0.003);
+            m.normals[3 * v] = (float)(sin(t) * cos(a));
+            m.normals[3 * v + 1] = (float)(sin(t) * sin(a));
+            m.normals[3 * v + 2] = (float)cos(t);
+        }
+        surface_parts flat_parts = smooth_surface(&m, 0);
+        flat_parts.material.stiffness = K;
+        knurl_scene *smooth = scene_with(&m), *flat = scene_of(&flat_parts);
+        const double bulge = info_of(smooth).bulge;
+        double at[3] = {0.0, 0.0, 0.02}, velocity[3] = {0.0, 0.0, -0.1};
+        for (int k = 0; k < 5000; k++) {
+            if (k % 25 == 24) {
+                random_direction(&seed, velocity);
+                add3(velocity, 0.0, velocity, velocity);
+            }
+            for (int i = 0; i < 3; i++) {
+                const double low = i == 2 ? -0.002 : -0.025, high = i == 2 ? 0.008 : 0.025;
+                at[i] = fmin(high, fmax(low, at[i] + 0.0002 * velocity[i]));
+            }
+            const knurl_tick_output out = tick_at(smooth, at[0], at[1], at[2]);
+            const knurl_tick_output as_is = tick_at(flat, at[0], at[1], at[2]);
+            assert_true(isfinite(length3(out.force)) && dot3(out.force, out.normal) >= 0.0);
+            assert_true(length3(out.force) <= length3(as_is.force) + K * (bulge + 1e-6));
+            assert_true(out.contacts == 0 || as_is.contacts > 0 || out.depth <= bulge + 1e-6);
+        }
+        knurl_scene_destroy(smooth);
+        knurl_scene_destroy(flat);
+        smooth_free(&m);
+    }
+}

@@ -192,14 +192,16 @@ class Scene(Owner):
         return self._add("plane", plane, material, **pose)
 
     def add_mesh(self, positions: ArrayLike, indices: Optional[ArrayLike] = None, uvs: Optional[ArrayLike] = None,
-                 tangents: Optional[ArrayLike] = None, material: Optional[Material] = None, **pose: Any) -> Surface:
+                 tangents: Optional[ArrayLike] = None, normals: Optional[ArrayLike] = None,
+                 material: Optional[Material] = None, **pose: Any) -> Surface:
         """A triangle mesh: positions (n, 3), indices (m, 3) of them, uvs (n, 2), tangents (n, 4). Arrays are copied.
+        normals (n, 3): it is felt as the smooth surface that they describe.
         pose: as of a plane, and box: ridges are laid out by positions instead of by uvs."""
         mesh = described("knurl_mesh_desc")
         arrays = [_rows(positions, 3, "f4", "positions")]
         mesh.positions = ffi.from_buffer("float[]", arrays[0])
         mesh.vertex_count = len(arrays[0])
-        for name, values, columns in (("uvs", uvs, 2), ("tangents", tangents, 4)):
+        for name, values, columns in (("uvs", uvs, 2), ("tangents", tangents, 4), ("normals", normals, 3)):
             if values is not None:
                 arrays.append(_rows(values, columns, "f4", name))
                 if len(arrays[-1]) != mesh.vertex_count:

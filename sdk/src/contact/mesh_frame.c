@@ -231,8 +231,12 @@ void knurl_mesh_carry(const knurl_mesh *mesh, const knurl_contact *contact, int 
     if (begins) {
         carry->by[0] = carry->by[1] = 0.0;
     } else if (side != carry->side) {
-        double before[2];
-        knurl_projection_place(carry->side, contact->proxy, before);
+        double before[2], corners[3][3], point[3] = {0.0, 0.0, 0.0};
+        knurl_mesh_corners(mesh, contact->triangle, corners); /* a smooth mesh's proxy may be off the triangle */
+        for (int k = 0; k < 3; k++) {
+            vec3_madd(point, contact->weights[k], corners[k], point);
+        }
+        knurl_projection_place(carry->side, point, before);
         carry->by[0] += before[0] - coordinates[0];
         carry->by[1] += before[1] - coordinates[1];
     }
