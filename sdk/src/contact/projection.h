@@ -21,10 +21,12 @@ static inline int knurl_projection_side(const double normal[3]) {
     return 2 * axis + (normal[axis] < 0.0);
 }
 
+/* By side. */
+static const knurl_projection knurl_projections[6] = {{2, 1, -1.0, 1.0}, {2, 1, 1.0, 1.0}, {0, 2, 1.0, -1.0},
+                                                      {0, 2, 1.0, 1.0},  {0, 1, 1.0, 1.0}, {0, 1, -1.0, 1.0}};
+
 static inline const knurl_projection *knurl_projection_of(int side) {
-    static const knurl_projection sides[6] = {{2, 1, -1.0, 1.0}, {2, 1, 1.0, 1.0}, {0, 2, 1.0, -1.0},
-                                              {0, 2, 1.0, 1.0},  {0, 1, 1.0, 1.0}, {0, 1, -1.0, 1.0}};
-    return &sides[side];
+    return &knurl_projections[side];
 }
 
 /* Kept from tick to tick of a contact: what is added to its coordinates, and the direction of the last tick. */
