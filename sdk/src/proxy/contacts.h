@@ -26,6 +26,7 @@ typedef struct knurl_active_contact {
     knurl_candidate *candidate; /* state kept from tick to tick, with the contact's proxy and normal */
     const knurl_pose *pose;     /* of the shape's frame, now */
     knurl_contact contact;      /* shape's frame */
+    int32_t is_sharp;           /* 1: the candidate's `excess` is added to the force */
     int32_t begins;             /* 1: not in contact at the last tick */
     int32_t is_unfelt;          /* 1: in contact with a smooth mesh's triangles, but not with its surface */
     const double *normal;       /* as felt, scene: the candidate's, or that of `felt` */

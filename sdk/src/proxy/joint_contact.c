@@ -191,6 +191,8 @@ static void update_contacts(knurl_joint_search *m, uint64_t which, uint32_t *fla
             knurl_contacts_end(candidate);
         } else if (!knurl_contacts_add(m->contacts, candidate, o->surface, o->record, o->pose, &m->touched[i])) {
             *flags |= KNURL_TICK_CONTACTS_FULL;
+        } else {
+            m->contacts->active[m->contacts->active_count - 1].is_sharp = m->sharp >> i & 1;
         }
         candidate->is_late = (m->late >> i & 1) != 0 && candidate->has_previous;
         candidate->has_previous = 1;
@@ -232,6 +234,7 @@ void knurl_joint_contact(knurl_contacts *c, const knurl_broad_index *index, cons
     m.unknown = 0;
     m.asked = 0;
     m.late = 0;
+    m.sharp = 0;
     m.hip = path->to;
     m.margin = knurl_hip_path_margin(path);
     const int may_be_alone = c->pressed <= 1 && !knurl_contacts_have_slipped(c);

@@ -25,6 +25,7 @@ static void sum_faces(const knurl_joint_search *m, const knurl_active_faces *fac
     if (!most) {
         return;
     }
+    vec3_copy(sum, o->candidate->excess);
     const double depth = vec3_normalise(sum);
     knurl_pose_to_own(o->pose, m->proxy, own);
     knurl_shape_rest(&o->surface->shape, &most->hit, own, &touched->state, &touched->contact);
@@ -46,6 +47,33 @@ static void sum_faces(const knurl_joint_search *m, const knurl_active_faces *fac
     }
 }
 
+/* In a crease of several surfaces under 90 degrees, faces press more than the proxy is away, up to any multiple of it
+ * where walls are nearly parallel, and cancel each other. Contacts of such depths would push the HIP sideways as soon
+ * as one wall is softer, or begins later. So the depths are limited to the proxy's distance, and what is missing
+ * (`excess`) is added such that the sum is the distance itself, as if all were one mesh: of equal shares along the
+ * proxy's direction and the faces' own pushes, mixed so that no contact pushes by more than the distance. */
+static void share_crease(knurl_joint_search *m, double longest) {
+    double most = 0.0, total = 0.0;
+    for (uint32_t i = 0; i < m->near.count; i++) {
+        const double press = m->touched[i].held ? vec3_length(m->near.list[i].candidate->excess) : 0.0;
+        most = press > most ? press : most;
+        total += press;
+    }
+    if (m->pressed < 2 || !(most > longest) || !(longest > 0.0)) {
+        return;
+    }
+    const double mix = (longest / most) * (longest / most);
+    for (uint32_t i = 0; i < m->near.count; i++) {
+        double *excess = m->near.list[i].candidate->excess;
+        const double press = m->touched[i].held ? vec3_length(excess) : 0.0;
+        if (press > 0.0) {
+            vec3_scale(mix - knurl_min(1.0, longest / press), excess, excess);
+            vec3_madd(excess, (1.0 - mix) * longest * press / total, m->normal, excess);
+            m->sharp |= (uint64_t)1 << i;
+        }
+    }
+}
+
 /* Turns the god-object's faces into contacts. */
 static void use_god_object(knurl_joint_search *m, knurl_god_object *g) {
     double held[3];
@@ -63,6 +91,7 @@ static void use_god_object(knurl_joint_search *m, knurl_god_object *g) {
         sum_faces(m, &g->faces, i, longest, &m->touched[i]);
         m->pressed += (uint32_t)m->touched[i].held;
     }
+    share_crease(m, longest);
     vec3_copy(g->at, m->proxy);
     if (g->faces.count > 0 && m->pressed == 0) { /* touching, without depth */
         m->pressed = 2;
