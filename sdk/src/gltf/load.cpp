@@ -1,10 +1,10 @@
 // Knurl: the C functions of the glTF loader. No exception leaves them. If a load fails, the scene is unchanged.
 // SPDX-License-Identifier: MIT
 #include <knurl/gltf.h>
+#include <knurl/query.h>
 
 #include "container.hpp"
 #include "filter.hpp"
-#include "names.hpp"
 #include "placement.hpp"
 
 #include <algorithm>
@@ -46,6 +46,36 @@ class Addition {
   private:
     knurl_scene *scene_;
     std::vector<knurl_surface_id> added_;
+};
+
+/// Makes surfaces' names unique.
+class Names {
+  public:
+    /// Starts with the names of the scene's surfaces.
+    explicit Names(const knurl_scene *scene) {
+        for (uint32_t i = 0; i < knurl_scene_get_surface_count(scene); ++i) {
+            knurl_surface_info info;
+            knurl_surface_info_init(&info, sizeof info);
+            if (knurl_scene_get_surface_info(scene, knurl_scene_get_surface(scene, i), &info) == KNURL_OK)
+                taken_.emplace(info.name, 1);
+        }
+    }
+
+    /// Returns `name`, with " (2)", " (3)", ... appended if it is taken, and marks the result as taken.
+    std::string unique(const std::string &name) {
+        uint32_t &tried = taken_[name];
+        std::string candidate = name;
+        while (tried != 0 && taken_.count(candidate) != 0)
+            candidate = name + " (" + std::to_string(++tried) + ")";
+        if (tried == 0)
+            tried = 1;
+        taken_.emplace(candidate, 1);
+        return candidate;
+    }
+
+  private:
+    /// A tree, not a hash table, which a hostile file could make slow by its choice of names.
+    std::map<std::string, uint32_t> taken_; ///< name to the highest number tried
 };
 
 knurl_material_desc material_of(const Tag &tag) {

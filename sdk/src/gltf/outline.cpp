@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "outline.hpp"
 #include "hierarchy.hpp"
-#include "names.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -8,6 +8,9 @@
 
 namespace knurl::gltf {
 
+/** A surface's name is at most 255 bytes: a node's or a mesh's name, " / ", a material's name, " (2)". */
+constexpr size_t name_part_max = 115; ///< plus "..."
+
 /** A surface to make: a tagged primitive shown by one node. */
 struct Instance {
     uint32_t node = 0;
@@ -15,7 +18,7 @@ struct Instance {
     uint32_t primitive = 0;
     Tag tag; ///< merged; has all required keys
     bool double_sided = false;
-    std::string name; ///< not unique yet; at most name_max bytes
+    std::string name; ///< not unique yet; at most 255 bytes
 };
 
 struct Outline {
