@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: MIT */
 #include "scene/scene.h"
 
+#include "guard/passivity.h"
+
 #include "support/rig.h"
 #include "support/scenes.h"
 
@@ -344,4 +346,40 @@ TEST(unknown_protections_and_clamps_are_refused) {
     bad = good;
     bad.clamp = 2;
     assert_int_equal(knurl_scene_configure_hip(scene, 0, &bad), KNURL_ERROR_ARGUMENT);
+}
+
+/* What test_protection_grids.c tunes, one rule at a time: swings of 2 mm in a wall. */
+static knurl_passivity swinging(void) {
+    knurl_passivity p;
+    memset(&p, 0, sizeof p);
+    p.longest = 120.0;
+    p.unit = 1.0;
+    p.farthest = 2e-3;
+    return p;
+}
+
+TEST(a_swing_smaller_than_the_largest_starts_the_row_again_and_keeps_half) {
+    knurl_passivity p = swinging();
+    p.row = 3;
+    p.squares = 10e-6;
+    p.largest = 5e-3;
+    p.off = 7.0;
+    knurl_passivity_end_swing(&p);
+    assert_int_equal(p.row, 1);
+    CHECK_CLOSE(p.squares, 5e-6 + 4e-6, 1e-15);
+    CHECK_SAME(p.off, 0.0);
+    assert_false(p.alarmed);
+}
+
+TEST(a_row_is_over_when_nothing_turns_for_the_longest_swing) {
+    knurl_passivity p = swinging();
+    p.row = 3;
+    p.squares = p.largest = p.moved = 1.0;
+    p.crossings = 2;
+    p.ticks = 120;
+    p.busy = 1;
+    p.depth = 2e-3; /* as far as ever */
+    knurl_passivity_follow(&p);
+    assert_true(p.row == 0 && p.crossings == 0 && p.ticks == 120 && p.busy == 1);
+    CHECK_SAME(p.squares + p.largest + p.moved, 0.0);
 }

@@ -258,7 +258,8 @@ TEST(a_surface_with_a_normal_is_turned_to_it_the_shortest_way) {
     CHECK_CLOSE(fabs(q[0]), 1.0, 1e-15L); /* to -z, about x */
     parts.desc.rotation[0] = 1.0;
     parts.desc.rotation[3] = 0.0;
-    CHECK_ADD_REFUSED(scene, &parts, KNURL_ERROR_ARGUMENT, "rotation: expected 0, 0, 0, 1 with a normal");
+    CHECK_ADD_REFUSED(scene, &parts, KNURL_ERROR_ARGUMENT,
+                      "rotation: expected 0, 0, 0, 1 with a normal, found [1, 0, 0, 0]");
 }
 
 TEST(surface_is_exactly_one_shape_with_a_material) {

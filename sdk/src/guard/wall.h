@@ -31,7 +31,6 @@ static inline void knurl_wall_init(knurl_wall *wall, const knurl_material_desc *
     wall->stiffness = material->stiffness;
     wall->amplitude = material->amplitude;
     wall->damping = material->damping;
-    wall->height = 0.0;
 }
 
 /* Begins a contact. depth: m, the ramped depth on the surface that the HIP comes from, so that the ramp continues from

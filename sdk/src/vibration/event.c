@@ -56,7 +56,7 @@ knurl_result knurl_vibration_event_prepare(double period_ticks, double amplitude
     if (KNURL_IS_NULL(event)) {
         return KNURL_ERROR_ARGUMENT;
     }
-    if (!(knurl_is_finite(period_ticks) && period_ticks > 0.0 && period_ticks <= KNURL_MAX_PERIOD_TICKS)) {
+    if (!(period_ticks > 0.0 && period_ticks <= KNURL_MAX_PERIOD_TICKS)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "period: expected above 0 and up to %g ticks, found %g",
                           KNURL_MAX_PERIOD_TICKS, period_ticks);
     }
