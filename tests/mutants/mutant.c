@@ -17,7 +17,7 @@ __attribute__((constructor(101))) static void choose(void) {
     const char *number = getenv("KNURL_MUTANT");
     const char *path = getenv("KNURL_MUTANT_MET");
     const int file = path ? open(path, O_RDWR) : -1;
-    knurl_mutant = number ? atoi(number) : 0;
+    knurl_mutant = number ? (int)strtol(number, NULL, 10) : 0;
     if (file >= 0) {
         unsigned char *met = mmap(NULL, MOST, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
         knurl_mutant_met = met == MAP_FAILED ? unread : met;

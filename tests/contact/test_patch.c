@@ -1,0 +1,41 @@
+/* The curved patch over a triangle: its tangents are what differences of its points say. SPDX-License-Identifier: MIT
+ */
+#include "support/geometry.h"
+
+#include "contact/patch.h"
+
+/* The point for some weights, as seen from there: its tangents are the changes, without what is along the normal. */
+static knurl_patch_point at_weights(const knurl_patch *patch, double w1, double w2) {
+    const double w[3] = {1.0 - w1 - w2, w1, w2}, nowhere[3] = {0.0, 0.0, 0.0};
+    knurl_patch_point at, again;
+    knurl_patch_at(patch, w, nowhere, &at);
+    knurl_patch_at(patch, w, at.point, &again);
+    return again;
+}
+
+TEST(tangents_are_the_differences_of_points) {
+    static const double h = 1e-6;
+    uint64_t seed = 3;
+    for (int i = 0; i < 500; i++) {
+        double corners[3][3] = {{0.0, 0.0, 0.0}, {0.01, 0.001, 0.0}, {0.002, 0.009, 0.0}}, normals[3][3];
+        knurl_patch patch;
+        for (int k = 0; k < 3; k++) {
+            normals[k][0] = random_between(&seed, -0.3, 0.3);
+            normals[k][1] = random_between(&seed, -0.3, 0.3);
+            normals[k][2] = sqrt(1.0 - normals[k][0] * normals[k][0] - normals[k][1] * normals[k][1]);
+        }
+        knurl_patch_set((const double (*)[3])corners, (const double (*)[3])normals, &patch);
+        const double w1 = random_between(&seed, 0.1, 0.5), w2 = random_between(&seed, 0.1, 0.4);
+        const knurl_patch_point at = at_weights(&patch, w1, w2);
+        for (int k = 0; k < 2; k++) {
+            const knurl_patch_point more = at_weights(&patch, w1 + (k ? 0.0 : h), w2 + (k ? h : 0.0));
+            const knurl_patch_point less = at_weights(&patch, w1 - (k ? 0.0 : h), w2 - (k ? h : 0.0));
+            double change[3];
+            add3(more.point, -1.0, less.point, change);
+            add3(change, -dot3(change, at.normal), at.normal, change);
+            for (int axis = 0; axis < 3; axis++) {
+                CHECK_CLOSE(at.tangents[k][axis], change[axis] / (2.0 * h), 1e-9);
+            }
+        }
+    }
+}
