@@ -110,7 +110,7 @@ double study_rendering_tick_at(study_rendering *r, double x, double speed) {
     } else if (r->contender.velocity != STUDY_IDEAL) {
         knurl_velocity_update(&r->estimator, position, velocity);
     }
-    if (quantum > 0.0) { /* as a scene does */
+    if (quantum > 0.0 && r->grating.method != KNURL_METHOD_S2) { /* as a scene does */
         knurl_velocity_track(&r->estimator, position, velocity, position);
     }
     knurl_grating_step(&r->grating, &r->state, position, velocity, &output);

@@ -24,8 +24,9 @@ int study_device(const char *folder);      /* figure 11 */
 int study_gratings(const char *folder);    /* figure 6 and section III */
 int study_preferences(const char *folder); /* figure 8 and Experiment 3 */
 int study_tradeoff(const char *folder);    /* cost against accuracy */
-int study_tracking(const char *folder);    /* a position in counts, tracked in two ways; prints its table */
+int study_tracking(const char *folder);    /* a position in counts, tracked in several ways; prints its table */
 int study_velocity(const char *folder);    /* the velocity estimators: what chooses the default */
+int study_even(const char *folder);        /* gains for even sensation; prints them */
 int study_half_cycles(const char *folder); /* every half cycle's impulse, on facets too; prints its table */
 int study_smooth(const char *folder);      /* a ring's triangles against its normals; prints its table */
 int study_transitions(const char *folder); /* turns, stops, lift-off, changes in an event; prints its table */

@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "6a4c7b3e34486beb"
+#define KNURL_UNITY_INTERFACE "f279a18b652dce7b"
 
 /** Everything mirrored, where C# expects it: STRUCT(type, bytes), FIELD(type, field, its name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
@@ -121,6 +121,9 @@
     FIELD(knurl_hip_desc, delay, "delay", 72, 8) \
     FIELD(knurl_hip_desc, max_stiffness, "max_stiffness", 80, 8) \
     FIELD(knurl_hip_desc, slew_rate, "slew_rate", 88, 8) \
+    STRUCT(knurl_gain, 16) \
+    FIELD(knurl_gain, hz, "hz", 0, 8) \
+    FIELD(knurl_gain, gain, "gain", 8, 8) \
     STRUCT(knurl_tick_input, 104) \
     FIELD(knurl_tick_input, position, "position", 0, 24) \
     FIELD(knurl_tick_input, velocity, "velocity", 24, 24) \
@@ -344,7 +347,7 @@
     FIELD(knurl_surface_point, distance, "distance", 16, 8) \
     FIELD(knurl_surface_point, position, "position", 24, 24) \
     FIELD(knurl_surface_point, normal, "normal", 48, 24) \
-    STRUCT(knurl_surface_check, 1064) \
+    STRUCT(knurl_surface_check, 1072) \
     FIELD(knurl_surface_check, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_surface_check, exceeded, "exceeded", 4, 4) \
     FIELD(knurl_surface_check, stiffness, "stiffness", 8, 8) \
@@ -352,6 +355,7 @@
     FIELD(knurl_surface_check, amplitude, "amplitude", 24, 8) \
     FIELD(knurl_surface_check, amplitude_limit, "amplitude_limit", 32, 8) \
     FIELD(knurl_surface_check, message, "message", 40, 1024) \
+    FIELD(knurl_surface_check, lowest_gain, "lowest_gain", 1064, 8) \
     STRUCT(knurl_stroke_report, 24) \
     FIELD(knurl_stroke_report, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_stroke_report, is_outside, "is_outside", 4, 4) \

@@ -75,6 +75,20 @@ KNURL_API void knurl_hip_desc_init(knurl_hip_desc *desc, uint32_t size);
  * tick that HIP] */
 KNURL_API knurl_result knurl_scene_configure_hip(knurl_scene *scene, uint32_t hip, const knurl_hip_desc *desc);
 
+/** A gain at a frequency. */
+typedef struct knurl_gain {
+    double hz;   /**< 0.001 to 1e5 */
+    double gain; /**< 0 to 1 */
+} knurl_gain;
+
+/** Even sensation, off by default: multiplies the amplitude of a HIP's ridges by a gain over f_t, so that a device and
+ * a hand do not make them stronger at some speeds than at others. gains: `count` pairs, hz rising; straight in log hz
+ * between two (to a sixteenth of an octave), constant beyond; copied. Null or count 0: off. It stays if the HIP is
+ * configured again. `knurl study even` finds gains for a device (samples/study/README.md).
+ * Errors: KNURL_ERROR_ARGUMENT (hip, which pair), KNURL_ERROR_STATE (a loop has it). [game thread, while the caller's
+ * own thread does not tick that HIP] */
+KNURL_API knurl_result knurl_scene_set_gains(knurl_scene *scene, uint32_t hip, const knurl_gain *gains, uint32_t count);
+
 /** The workspace map of a HIP, given or chosen by the scene at the commit; if it is moving, its target. Errors:
  * KNURL_ERROR_ARGUMENT, KNURL_ERROR_STATE (the scene is to choose it, and is not committed). [any thread but the
  * haptic] */

@@ -142,6 +142,7 @@ typedef struct knurl_surface_check {
     double amplitude_limit; /**< m: at the device's stiffness */
     char message[1024];     /**< a sentence for each exceeded limit: its name, the excess, the remedy; "" if there is
                                  none */
+    double lowest_gain; /**< of knurl_scene_set_gains(): the weakest ridges have this share of the amplitude; 1: off */
 } knurl_surface_check;
 
 /** Fills in defaults; `size` is the caller's sizeof. [any thread] */

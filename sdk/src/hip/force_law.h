@@ -1,11 +1,11 @@
 /* The force of a contact: velocity over the surface, the grating's height, Eq. 9, friction. Pure: the only state is the
- * candidate's grating and friction anchor.
- * SPDX-License-Identifier: MIT */
+ * candidate's grating and friction anchor. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_FORCE_LAW_H
 #define KNURL_SRC_FORCE_LAW_H
 
 #include "base/base.h"
 #include "grating/step.h"
+#include "hip/even.h"
 #include "hip/friction.h"
 #include "proxy/contact_update.h"
 #include "surface/surface_frame.h"
@@ -17,6 +17,7 @@ typedef struct knurl_hip_motion {
     double rate;            /* Hz */
     double resolution;      /* m, device; 0: positions are exact */
     const double *between;  /* m, scene: from the measured position to the tracked one */
+    const knurl_even *even;
 } knurl_hip_motion;
 
 /* The force of one contact. */
@@ -56,8 +57,7 @@ static inline void play_grating(const knurl_hip_motion *hip, const knurl_active_
                                 knurl_along velocity, double coordinates[2], const knurl_wall *wall,
                                 knurl_contact_force *out) {
     const knurl_material_desc *m = &c->record->material;
-    knurl_grating_state *state = &c->candidate->grating;
-    if (!c->record->has_grating && !state->playing) { /* an event plays to its end */
+    if (!c->record->has_grating && !c->candidate->grating.playing) { /* an event plays to its end */
         const knurl_grating_output none = {.event = KNURL_NO_EVENT};
         out->grating = none;
         out->cycles[0] = out->cycles[1] = 0.0;
@@ -72,16 +72,20 @@ static inline void play_grating(const knurl_hip_motion *hip, const knurl_active_
             add_between(hip->between, c, coordinates);
         }
     }
-    const knurl_along place = {coordinates[0], coordinates[1]};
-    out->cycles[0] = m->spatial_frequency[0] * place.x + 0.0; /* turns -0 into 0 */
-    out->cycles[1] = m->spatial_frequency[1] * place.y + 0.0;
-    const knurl_grating_input at = {place, {rates[0], rates[1]}, hip->clock->period, has_position};
+    out->cycles[0] = m->spatial_frequency[0] * coordinates[0] + 0.0; /* turns -0 into 0 */
+    out->cycles[1] = m->spatial_frequency[1] * coordinates[1] + 0.0;
+    const knurl_grating_input at = {
+        {coordinates[0], coordinates[1]}, {rates[0], rates[1]}, hip->clock->period, has_position};
+    double amplitude = c->record->is_smooth ? 0.0 : wall->amplitude;
+    if (KNURL_UNLIKELY(hip->even->on)) {
+        amplitude *= knurl_even_gain(hip->even, knurl_grating_highest(m->spatial_frequency, at.velocity));
+    }
     const knurl_grating grating = {.method = m->method,
                                    .spatial_frequency = {m->spatial_frequency[0], m->spatial_frequency[1]},
-                                   .amplitude = c->record->is_smooth ? 0.0 : wall->amplitude,
+                                   .amplitude = amplitude,
                                    .update_rate_hz = hip->rate,
                                    .resolution = hip->resolution};
-    knurl_grating_run(&grating, state, &at, &out->grating);
+    knurl_grating_run(&grating, &c->candidate->grating, &at, &out->grating);
 }
 
 /* Eq. 9 with the wall's damping, N; never a pull. outwards: m/s along the normal. */

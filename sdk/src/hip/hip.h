@@ -4,6 +4,7 @@
 
 #include "guard/guard.h"
 #include "guard/last_stage.h"
+#include "hip/even.h"
 #include "hip/hip_workspace.h"
 #include "hip/snapshot.h"
 #include "proxy/contact_update.h"
@@ -32,6 +33,7 @@ typedef struct knurl_hip {
     knurl_hip_desc given;      /* as configured; a loop fills in the open values */
     knurl_hip_facts facts;     /* in use */
     knurl_workspace_move move; /* of the workspace */
+    knurl_even even;
     knurl_contacts contacts;
 } knurl_hip;
 

@@ -26,6 +26,17 @@ static knurl_result set_up(knurl_scene *scene, knurl_hip *hip, const knurl_hip_d
     return result;
 }
 
+/* Under the lock. */
+static knurl_result refuse_in_use(const knurl_scene *scene, uint32_t hip) {
+    if (knurl_load_acquire(&scene->use) >> hip & 1) {
+        return knurl_fail(
+            KNURL_ERROR_STATE,
+            "scene: HIP %u is in use by a loop; configure it before the loop is created or after it is destroyed",
+            (unsigned)hip);
+    }
+    return KNURL_OK;
+}
+
 knurl_result knurl_scene_configure_hip(knurl_scene *scene, uint32_t hip, const knurl_hip_desc *desc) {
     if (KNURL_BAD_HANDLE(scene, SCENE)) {
         return KNURL_ERROR_ARGUMENT;
@@ -36,14 +47,22 @@ knurl_result knurl_scene_configure_hip(knurl_scene *scene, uint32_t hip, const k
     result = result || !desc ? result : knurl_desc_read("knurl_hip_desc", desc, &d, sizeof d);
     if (!result) {
         knurl_scene_lock(scene); /* a loop that claims the HIP meanwhile sets it up after this */
-        if (knurl_load_acquire(&scene->use) >> hip & 1) {
-            result = knurl_fail(
-                KNURL_ERROR_STATE,
-                "scene: HIP %u is in use by a loop; configure it before the loop is created or after it is destroyed",
-                (unsigned)hip);
-        } else {
-            result = set_up(scene, &scene->hips[hip], &d, &knurl_touch, HUGE_VAL);
-        }
+        result = refuse_in_use(scene, hip);
+        result = result ? result : set_up(scene, &scene->hips[hip], &d, &knurl_touch, HUGE_VAL);
+        knurl_scene_unlock(scene);
+    }
+    return result;
+}
+
+knurl_result knurl_scene_set_gains(knurl_scene *scene, uint32_t hip, const knurl_gain *gains, uint32_t count) {
+    if (KNURL_BAD_HANDLE(scene, SCENE)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
+    knurl_result result = check_hip(scene, hip);
+    if (!result) {
+        knurl_scene_lock(scene);
+        result = refuse_in_use(scene, hip);
+        result = result ? result : knurl_even_init(gains, count, &scene->hips[hip].even);
         knurl_scene_unlock(scene);
     }
     return result;

@@ -159,8 +159,8 @@ static inline double render_contact(knurl_hip *hip, const knurl_tick_input *inpu
         knurl_methods[c->record->material.method].follows_position) {
         track(hip, input);
     }
-    const knurl_hip_motion motion = {&hip->contacts.clock, out->hip_velocity, hip->rate, hip->facts.resolution,
-                                     hip->between};
+    const knurl_hip_motion motion = {&hip->contacts.clock,  out->hip_velocity, hip->rate,
+                                     hip->facts.resolution, hip->between,      &hip->even};
     const int64_t events = c->candidate->grating.event_count;
     knurl_wall wall;
     knurl_contact_force share;

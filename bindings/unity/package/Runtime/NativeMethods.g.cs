@@ -188,6 +188,13 @@ namespace Knurl
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_gain
+    {
+        public double hz;
+        public double gain;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct knurl_tick_input
     {
         public fixed double position[3];
@@ -504,6 +511,7 @@ namespace Knurl
         public double amplitude;
         public double amplitude_limit;
         public fixed byte message[1024];
+        public double lowest_gain;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -638,7 +646,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "6a4c7b3e34486beb";
+        internal const string Interface = "f279a18b652dce7b";
 
         internal const string Version = "0.3.0";
 
@@ -661,6 +669,7 @@ namespace Knurl
                 case "knurl_surface_desc": return sizeof(knurl_surface_desc);
                 case "knurl_scene_desc": return sizeof(knurl_scene_desc);
                 case "knurl_hip_desc": return sizeof(knurl_hip_desc);
+                case "knurl_gain": return sizeof(knurl_gain);
                 case "knurl_tick_input": return sizeof(knurl_tick_input);
                 case "knurl_tick_output": return sizeof(knurl_tick_output);
                 case "knurl_hip_counts": return sizeof(knurl_hip_counts);
@@ -973,6 +982,9 @@ namespace Knurl
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_scene_configure_hip(knurl_scene* scene, uint hip, knurl_hip_desc* desc);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_scene_set_gains(knurl_scene* scene, uint hip, knurl_gain* gains, uint count);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_scene_get_workspace(knurl_scene* scene, uint hip, knurl_workspace* workspace);
