@@ -10,8 +10,8 @@ from style import HALO, INK, METHODS, read_table
 
 ABOUT = {"S1": "the surface at a point", "S2": "events, by the speed", "bandlimited": "the harmonics that fit"}
 # Of names: the point beside which they stand, how far from it (in points), and on which side.
-PLACES = {"S1": (0, 0, -22, "left"), "S2": (3, 8, 40, "left"), "bandlimited": (1, 16, 4, "left")}
-LOW, HIGH = 0.0005, 1.7
+PLACES = {"S1": (1, -44, -28, "left"), "S2": (3, 14, 34, "left"), "bandlimited": (1, 16, 20, "left")}
+LOW, HIGH = 0.00003, 1.7
 
 
 def lines(table, column):
@@ -42,7 +42,7 @@ def draw_line(ax, table, method, points, colour):
     ax.plot(xs, ys, color=colour, lw=2.6, zorder=4, solid_capstyle="round")
     ax.plot(xs, ys, "o", color=colour, ms=7, zorder=5)
     for x, y, rate in points:
-        under = method == "S1" and rate > 1 or method != "S1" and rate > 2
+        under = rate < 10 if method == "S1" else rate > 2
         ax.annotate(f"{rate:g}" + (" kHz" if rate in (1, 10) else ""), (x, y), xytext=(0, -16 if under else 8),
                     textcoords="offset points", ha="center", fontsize=9.5, color=colour, zorder=6, path_effects=HALO)
     place, dx, dy, side = PLACES.get(method, (-1, 8, 0, "left"))
@@ -77,7 +77,7 @@ def draw_speed_accuracy(data, folder):
             ax.plot([x for x, *_ in points], [y for _, y, _ in points], color=colour, lw=1, alpha=0.5,
                     ls=(0, (1, 1.5)), zorder=2)
     ax.set(xscale="log", yscale="log", ylim=(LOW, HIGH), xlim=(0.17, 12))
-    for axis, marks in ((ax.xaxis, (0.2, 0.5, 1, 2, 5, 10)), (ax.yaxis, (0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1))):
+    for axis, marks in ((ax.xaxis, (0.2, 0.5, 1, 2, 5, 10)), (ax.yaxis, (0.0001, 0.0003, 0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1))):
         axis.set_major_locator(FixedLocator(marks))
         axis.set_minor_locator(NullLocator())
     ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))

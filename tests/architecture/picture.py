@@ -36,7 +36,7 @@ BOXES = {
     "broad_phase": (238, 372, 108, "broad_phase", "what is near", ["surface/broad_phase"]),
     "candidates": (363, 372, 108, "candidates", "what may be met", ["proxy/candidate", "proxy/candidates", "proxy/hip_clock"]),
     "contact_update": (488, 372, 108, "contact_update", "begin, hold, end", ["proxy/contact_update"]),
-    "force_law": (613, 372, 108, "force_law", "F = K (H - z)", ["hip/force_law", "hip/friction"]),
+    "force_law": (613, 372, 108, "force_law", "F = K (H - z)", ["hip/even", "hip/force_law", "hip/friction"]),
     "guard": (738, 372, 108, "guard", "first and last", ["guard/guard", "guard/last_stage"]),
     "snapshot": (863, 372, 108, "snapshot", "for other threads", ["hip/snapshot"]),
     "limits": (738, 456, 190, "wall, passivity, bounds, heat", "nothing runs away or burns",
@@ -145,7 +145,7 @@ class Svg:
 
 def ports(names, middle, width, other):
     """Where on a box's edge its arrows stand, x: in the order of what is at their other ends."""
-    names = sorted(names, key=other)
+    names = sorted(names, key=lambda name: (other(name), name))
     gap = min(66.0, width / max(1, len(names)))
     return {name: middle + gap * (i - (len(names) - 1) / 2) for i, name in enumerate(names)}
 

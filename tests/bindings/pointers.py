@@ -33,6 +33,7 @@ VALUES = {
     "knurl_scene_get_contacts.capacity": "1",
     "radius double": "1.0",
     "knurl_scene_tick_batch.count": "1",
+    "knurl_scene_set_gains.count": "0",
     "knurl_session_start.session": "f->open_session",
     "knurl_session_play.session": "f->open_session",
     "knurl_session_move_hip.session": "f->mouse_session",
@@ -126,6 +127,7 @@ MAY_BE_NULL = {
     "knurl_device_close.device", "knurl_loop_destroy.loop", "knurl_scene_destroy.scene", "knurl_session_destroy.session",
     "knurl_audio_destroy.audio", "knurl_sound_release.sound", "knurl_audio_create.desc",
     "knurl_scene_create.desc", "knurl_scene_configure_hip.desc",  # all defaults
+    "knurl_scene_set_gains.gains",  # off
     "knurl_fail.format", "knurl_device_list.listings", "knurl_scene_add_surface.surface",
     "knurl_scene_get_tick.output", "knurl_scene_get_tick.counts", "knurl_scene_get_contacts.contacts",
     "knurl_scene_set_user_data.user_data",

@@ -217,7 +217,9 @@ static knurl_result call_configure(void) {
     knurl_hip_desc hip;
     knurl_hip_desc_init(&hip, sizeof hip);
     hip.max_force = 2.0;
-    return knurl_scene_configure_hip(scene, 0, &hip);
+    const knurl_gain gains[] = {{30.0, 1.0}, {300.0, 0.5}};
+    const knurl_result result = knurl_scene_configure_hip(scene, 0, &hip);
+    return result ? result : knurl_scene_set_gains(scene, 0, gains, 2);
 }
 
 static knurl_result call_set_workspace(void) {
