@@ -28,7 +28,7 @@ typedef struct help_command {
 } help_command;
 
 #define STUDIES                                                                                                        \
-    "signals, coverage, temporal, device, gratings, preferences, tradeoff, velocity, tracking, half_cycles,\n"         \
+    "signals, coverage, temporal, device, gratings, preferences, tradeoff, velocity, tracking, even, half_cycles,\n"   \
     "transitions, smooth, failures, stability"
 #define METHODS "METHOD" /* stands for the names of the library's table */
 #define BUDGET  {"--budget", "NAME=N,...", "limits of loading: surfaces, bytes, vertices, triangles, seconds"}
