@@ -88,15 +88,6 @@ static inline void play_grating(const knurl_hip_motion *hip, const knurl_active_
     knurl_grating_run(&grating, &c->candidate->grating, &at, &out->grating);
 }
 
-/* Eq. 9 with the wall's damping, N; never a pull. outwards: m/s along the normal. */
-static inline double normal_force(const knurl_wall *wall, double outwards) {
-    if (wall->z >= wall->height) {
-        return 0.0;
-    }
-    const double size = wall->stiffness * (wall->height - wall->z) - wall->damping * outwards;
-    return KNURL_LIKELY(size > 0.0) ? size : 0.0;
-}
-
 /* The force of one contact. wall: as limited by the protections; its height is set here. */
 static inline void knurl_force_law(const knurl_hip_motion *hip, const knurl_active_contact *c, knurl_wall *wall,
                                    knurl_contact_force *out) {
@@ -108,7 +99,7 @@ static inline void knurl_force_law(const knurl_hip_motion *hip, const knurl_acti
     out->velocity[1] = velocity.y;
     play_grating(hip, c, over, velocity, coordinates, wall, out);
     wall->height = out->grating.height;
-    vec3_scale(normal_force(wall, vec3_dot(over, c->contact.normal)), c->normal, out->force);
+    vec3_scale(knurl_normal_force(wall, vec3_dot(over, c->contact.normal)), c->normal, out->force);
     if (KNURL_UNLIKELY(c->is_sharp)) { /* ramped as the depth is */
         vec3_madd(out->force, wall->stiffness * (wall->z / c->contact.z), c->candidate->excess, out->force);
     }

@@ -1,9 +1,19 @@
-/* Coulomb friction along a surface. SPDX-License-Identifier: MIT */
+/* The forces of a wall, across and along it. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_FRICTION_H
 #define KNURL_SRC_FRICTION_H
 
+#include "base/base.h"
 #include "guard/wall.h"
 #include "proxy/contact_update.h"
+
+/* Eq. 9 with the wall's damping, N; never a pull. outwards: m/s along the normal. */
+static inline double knurl_normal_force(const knurl_wall *wall, double outwards) {
+    if (wall->z >= wall->height) {
+        return 0.0;
+    }
+    const double size = wall->stiffness * (wall->height - wall->z) - wall->damping * outwards;
+    return KNURL_LIKELY(size > 0.0) ? size : 0.0;
+}
 
 /* Coulomb friction: the HIP drags an anchor along the surface by a spring of the wall's stiffness, and the anchor slips
  * if the spring would pull harder than friction holds. tangential: N, shape's frame. */
