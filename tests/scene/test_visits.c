@@ -249,8 +249,8 @@ TEST(the_check_at_load_warns_of_meshes_that_meet_the_limit) {
     shape_free(&ball);
 }
 
-/* Spheres one 10 um beside the other: the first one's check. */
-static uint32_t exceeded_by_crowd(int count) {
+/* Spheres one 10 um beside the other, among planes through them: the first one's check. */
+static uint32_t exceeded_by_crowd(int count, int planes) {
     shape s = shape_sphere(RADIUS, 3);
     surface_parts parts = surface_shape(&s, 0.0);
     knurl_scene *scene = empty_scene(1);
@@ -259,6 +259,10 @@ static uint32_t exceeded_by_crowd(int count) {
     for (int i = 0; i < count; i++) {
         parts.desc.position[0] = 1e-5 * i;
         (void)add_surface(scene, &parts);
+        surface_parts plane = surface_plane();
+        for (int k = 0; i == 0 && k < planes; k++) {
+            (void)add_surface(scene, &plane);
+        }
     }
     configure_plainly(scene, 0);
     assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
@@ -270,6 +274,20 @@ static uint32_t exceeded_by_crowd(int count) {
 }
 
 TEST(the_check_at_load_warns_of_crowds_of_meshes) {
-    assert_int_equal(exceeded_by_crowd(15), 0);
-    assert_int_equal(exceeded_by_crowd(16), KNURL_LIMIT_VISITS);
+    assert_int_equal(exceeded_by_crowd(15, 0), 0);
+    assert_int_equal(exceeded_by_crowd(16, 0), KNURL_LIMIT_VISITS);
+}
+
+TEST(the_check_at_load_counts_meshes_among_any_number_of_planes) {
+    assert_int_equal(exceeded_by_crowd(15, 100), 0);
+    assert_int_equal(exceeded_by_crowd(16, 100), KNURL_LIMIT_VISITS);
+}
+
+TEST(a_budget_of_visits_can_be_used_up_to_the_last) {
+    knurl_visits budget = knurl_visits_of(KNURL_VISITS_MAX);
+    assert_true(knurl_visits_take(&budget, KNURL_VISITS_MAX - 1) && knurl_visits_take(&budget, 1));
+    assert_true(!budget.exhausted && budget.left > 0);
+    assert_false(knurl_visits_take(&budget, 1));
+    assert_true(budget.exhausted && budget.left == 0);
+    assert_false(knurl_visits_take(&budget, 0));
 }

@@ -6,7 +6,7 @@
 
 /* A visit is a triangle, a plane or a node of a hierarchy that a query tests: 40 to 70 instructions. */
 typedef struct knurl_visits {
-    uint32_t left;     /* 0: queries fail from now on */
+    uint32_t left;     /* one more than may be taken; 0: a query was refused, and all are from now on */
     int32_t exhausted; /* 1: a query was cut short, by this budget or by its own share of it */
 } knurl_visits;
 
@@ -16,7 +16,13 @@ typedef struct knurl_visits {
 /* The same for a triangle reached by a walk: in a large mesh each waits for memory whose address the last one held. */
 #define KNURL_VISITS_STEP 9
 
-/* Takes `count` visits. 0 unless more than that are left: the query must then end. visits: null: unlimited. */
+/* A budget of `count` visits. */
+static inline knurl_visits knurl_visits_of(uint32_t count) {
+    const knurl_visits visits = {count < UINT32_MAX ? count + 1 : UINT32_MAX, 0};
+    return visits;
+}
+
+/* Takes `count` visits. 0 if so many are not left: the query must then end. visits: null: unlimited. */
 static inline int knurl_visits_take(knurl_visits *visits, uint32_t count) {
     if (!visits) {
         return 1;

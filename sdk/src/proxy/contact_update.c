@@ -220,7 +220,7 @@ __attribute__((noinline)) static void find_jointly(knurl_contacts *c, const knur
         vec3_sub(c->proxy, position, way);
         c->depth = vec3_length(way);
     }
-    if (c->pressed && c->max_visits - c->visits.left <= FEW_VISITS) {
+    if (c->pressed && knurl_visits_of(c->max_visits).left - c->visits.left <= FEW_VISITS) {
         knurl_candidates_look_ahead(&c->candidates, phase, index, &path);
     }
     knurl_candidates_measure(&c->candidates, position, c->proxy, c->active_count < before || c->everything);
@@ -229,9 +229,8 @@ __attribute__((noinline)) static void find_jointly(knurl_contacts *c, const knur
 void knurl_contacts_find(knurl_contacts *c, const knurl_broad_phase *phase, const knurl_broad_index *index,
                          const double position[3], int clear, uint32_t *flags) {
     double margin = -1.0;
-    c->visits.left = c->max_visits;
     c->cut_short = KNURL_UNLIKELY(c->visits.exhausted) ? c->cut_short + (c->cut_short < 5) : 0;
-    c->visits.exhausted = 0;
+    c->visits = knurl_visits_of(c->max_visits);
     c->asked_of = NULL;
     knurl_candidate *alone = KNURL_LIKELY(clear && c->active_count == 1) ? c->active[0].candidate : NULL;
     if (KNURL_UNLIKELY(!clear)) {

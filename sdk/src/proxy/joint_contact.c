@@ -153,7 +153,7 @@ static void keep_contacts(knurl_joint_search *m) {
  * that needs more is queried again in the next tick, over the whole path since. */
 static void begin_alone(knurl_joint_search *m) {
     knurl_contacts *c = m->contacts;
-    const uint32_t share = 1 + c->max_visits / 2 / (m->near.count > 0 ? m->near.count : 1);
+    const uint32_t share = c->max_visits / 2 / (m->near.count > 0 ? m->near.count : 1);
     double deepest = 1.0;
     uint32_t pressed = 0;
     knurl_joint_set_free(m);
@@ -161,7 +161,7 @@ static void begin_alone(knurl_joint_search *m) {
         knurl_touched *touched = &m->touched[i];
         if (i >= m->asked || !knurl_joint_is_inside(touched)) {
             c->asked_of = NULL;
-            c->visits.left = share;
+            c->visits.left = knurl_visits_of(share).left;
             knurl_joint_query_contact(m, &m->near.list[i], touched);
         }
         if (c->visits.left == 0 && !knurl_joint_is_inside(touched)) {

@@ -149,29 +149,35 @@ static void check_visits(const inspection *on, const knurl_surface_data *surface
 #define CROWD       16
 #define CROWD_REACH 0.001
 
-/* Most surfaces near a point that are tested. */
+/* Surfaces near a point, planes included, above which all of the scene are tested. */
 #define CROWD_MAX 64
+
+static uint32_t is_mesh_near(const knurl_surface_data *surface, const double point[3], double now) {
+    knurl_contact nearest;
+    knurl_pose pose;
+    double own[3];
+    if (!surface || surface->shape.plane) {
+        return 0;
+    }
+    knurl_motion_at(&surface->record->motion, now, &pose);
+    knurl_pose_to_own(&pose, point, own);
+    return (uint32_t)knurl_mesh_closest(surface->shape.geometry, own, CROWD_REACH, NULL, NULL, &nearest);
+}
 
 /* Counts the meshes within CROWD_REACH of a point. */
 static uint32_t count_meshes_near(const knurl_scene *scene, const double point[3]) {
     const knurl_broad_index *index = scene->broad_phase.index; /* null before the commit */
     const double now = knurl_scene_time(scene);
-    uint32_t places[CROWD_MAX];
+    uint32_t places[CROWD_MAX], count = 0;
     double low[3], high[3];
     knurl_bvh_bound(point, point, CROWD_REACH, low, high);
     const knurl_view view = {low, high, now, 0, 1};
     const uint32_t found = index ? knurl_broad_phase_find(index, &view, CROWD_MAX, places) : 0;
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < found && i < CROWD_MAX; i++) {
-        const knurl_surface_data *surface = index->items[places[i]];
-        knurl_contact nearest;
-        knurl_pose pose;
-        double own[3];
-        if (surface && !surface->shape.plane) {
-            knurl_motion_at(&surface->record->motion, now, &pose);
-            knurl_pose_to_own(&pose, point, own);
-            count += (uint32_t)knurl_mesh_closest(surface->shape.geometry, own, CROWD_REACH, NULL, NULL, &nearest);
-        }
+    for (uint32_t i = 0; i < found && found <= CROWD_MAX; i++) {
+        count += is_mesh_near(index->items[places[i]], point, now);
+    }
+    for (uint32_t i = 0; i < scene->surfaces.count && found > CROWD_MAX; i++) { /* some of them may be planes */
+        count += is_mesh_near(knurl_surfaces_at(&scene->surfaces, i), point, now);
     }
     return count;
 }
