@@ -59,7 +59,7 @@ static knurl_scene *scene_within(surface_parts *parts, uint32_t max_visits) {
     desc.protections = 0;
     desc.workspace = &workspace;
     assert_int_equal(knurl_scene_configure_hip(scene, 0, &desc), KNURL_OK);
-    scene->hips[0].contacts.max_visits = max_visits;
+    scene->hips[0].contacts.budget.max = max_visits;
     return scene;
 }
 
@@ -204,7 +204,7 @@ static int check_only_plane_is_touched(const shape *below, uint32_t max_visits) 
     knurl_hip_desc_init(&desc, sizeof desc);
     desc.workspace = &workspace;
     assert_int_equal(knurl_scene_configure_hip(scene, 0, &desc), KNURL_OK);
-    scene->hips[0].contacts.max_visits = max_visits;
+    scene->hips[0].contacts.budget.max = max_visits;
     assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
     (void)tick_at(scene, 0.0, 0.0, 0.0005);
     const knurl_tick_output out = tick_at(scene, 0.0, 0.0, -0.0005);

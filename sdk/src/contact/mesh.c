@@ -50,7 +50,7 @@ void knurl_mesh_triangle(const knurl_mesh *mesh, uint32_t triangle, knurl_triang
     vec3_sub(out->corners[1], out->corners[0], edge1);
     vec3_sub(out->corners[2], out->corners[0], edge2);
     vec3_cross(edge1, edge2, out->normal);
-    out->area2 = vec3_normalise(out->normal);
+    out->area_twice = vec3_normalise(out->normal);
 }
 
 void knurl_mesh_destroy(knurl_heap *heap, knurl_mesh *mesh) {

@@ -67,7 +67,7 @@ typedef struct knurl_mesh {
 typedef struct knurl_triangle {
     double corners[3][3];
     double normal[3]; /* unit, on the counter-clockwise side */
-    double area2;     /* twice the area */
+    double area_twice;
 } knurl_triangle;
 
 /* Validates a description. Errors: KNURL_ERROR_ARGUMENT (field, index, expected, found). */

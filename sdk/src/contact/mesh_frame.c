@@ -105,8 +105,8 @@ void knurl_mesh_set_axis(knurl_mesh *mesh, const double axis[3]) {
         const double length = vec3_length(tangent);
         along[0] = fmin(along[0], length);
         along[2] = fmax(along[2], length);
-        area += t.area2;
-        sum += t.area2 * length;
+        area += t.area_twice;
+        sum += t.area_twice * length;
     }
     along[1] = sum / area;
 }

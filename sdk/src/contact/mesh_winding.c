@@ -90,7 +90,7 @@ static uint32_t find_beside(winding *w, uint32_t corner) {
     vec3_sub(t.corners[corner_last(corner) & 3], from, edge);
     vec3_madd(from, 0.5, edge, middle);
     const double length = vec3_length(edge);
-    const double radius = fmax(mesh->seam, BESIDE_SHARE * fmin(length, t.area2 / length));
+    const double radius = fmax(mesh->seam, BESIDE_SHARE * fmin(length, t.area_twice / length));
     while (top > 0 && found < 2) {
         const uint32_t index = stack[--top];
         const knurl_bvh_node *node = &mesh->nodes[index];
@@ -202,7 +202,7 @@ static void choose_fronts(const winding *w, knurl_mesh *mesh) {
         const uint32_t root = root_of(w, t);
         knurl_triangle triangle;
         knurl_mesh_triangle(mesh, t, &triangle);
-        w->parts[root >> 1].areas[root & 1] += triangle.area2;
+        w->parts[root >> 1].areas[root & 1] += triangle.area_twice;
         w->parts[root >> 1].counts[root & 1]++;
         w->marks[root >> 1] = (uint8_t)(w->marks[root >> 1] | (w->marks[t] & CONTRADICTS));
     }

@@ -53,7 +53,7 @@ typedef struct knurl_hip_path {
     double depth;        /* m: of the deepest contact at the last tick; 0 without contact */
     double time;         /* s */
     int is_first;        /* 1: first tick: `from` is unknown */
-    int everything;      /* 1: test every surface in every tick (KNURL_FULL_SEARCH) */
+    int test_all;        /* 1: test every surface in every tick (KNURL_FULL_SEARCH) */
     double low[3];       /* bounding box of all three, set by knurl_hip_path_bound() */
     double high[3];
 } knurl_hip_path;

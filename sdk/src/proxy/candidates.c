@@ -146,9 +146,9 @@ static void query_broad_phase(knurl_candidates *c, const knurl_broad_phase *phas
             low[i] = c->low[i] - reach;
             high[i] = c->high[i] + reach;
         }
-        const knurl_view view = {low, high, path->time, path->everything, v >= NARROWS};
+        const knurl_broad_query query = {low, high, path->time, path->test_all, v >= NARROWS};
         const uint32_t limit = find_limit(index, v);
-        found = knurl_broad_phase_find(index, &view, limit, places);
+        found = knurl_broad_phase_find(index, &query, limit, places);
         if (found <= limit || v + 1 == VIEWS) {
             break;
         }
@@ -181,7 +181,7 @@ void knurl_candidates_update(knurl_candidates *c, const knurl_broad_phase *phase
         inside &= path->to[i] >= c->low[i] && path->to[i] <= c->high[i];
     }
     if (c->version != knurl_load_acquire(&phase->version) || path->is_first || !inside || path->depth > c->depth ||
-        c->overflow || path->everything) {
+        c->overflow || path->test_all) {
         query_broad_phase(c, phase, index, path);
     }
 }

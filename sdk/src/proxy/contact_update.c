@@ -18,7 +18,7 @@ static inline int query_shape(knurl_contacts *c, knurl_active_contact *a, const 
     query.double_sided = a->surface->double_sided;
     query.facet = &a->candidate->facet;
     query.part = &a->candidate->part;
-    query.visits = &c->visits;
+    query.visits = &c->budget.visits;
     return knurl_shape_contact(shape, &query, state, &a->contact);
 }
 
@@ -28,18 +28,14 @@ static inline int is_within_view(const knurl_contacts *c, double margin, const d
     if (KNURL_LIKELY(margin < 0.0)) {
         return knurl_candidates_are_clear_of(&c->candidates, proxy);
     }
-    return vec3_distance2(c->pressed ? c->proxy : c->previous, proxy) <= margin * margin;
+    return vec3_distance2(c->proxy.holders ? c->proxy.at : c->previous, proxy) <= margin * margin;
 }
 
-/* Tests only `candidate`, which is in contact, if nothing else is near the HIP. Returns 0, with the contact unchanged,
- * if joint contact has to decide; c->asked then holds the query's result. margin: as for is_within_view(). */
-static inline int hold_alone(knurl_contacts *c, const knurl_broad_index *index, knurl_candidate *candidate,
-                             const double position[3], double margin) {
-    knurl_active_contact *a = &c->active[0];
-    knurl_contact_state *state = &candidate->contact;
-    const knurl_pose *pose_before;
-    double hip[3], proxy[3], normal[3];
-    a->candidate = candidate;
+/* Stage 1 of hold_alone(): the candidate's surface and its pose in this tick. Returns 0 if it was removed, has jumped,
+ * or was not tested in the last tick. */
+static inline int place_alone(knurl_contacts *c, const knurl_broad_index *index, knurl_active_contact *a) {
+    knurl_candidate *candidate = a->candidate;
+    const knurl_pose *before;
     a->surface = knurl_contacts_surface(index, candidate);
     if (KNURL_UNLIKELY(!a->surface)) {
         return 0;
@@ -53,26 +49,39 @@ static inline int hold_alone(knurl_contacts *c, const knurl_broad_index *index, 
         a->pose = &motion->end;
     } else {
         knurl_contacts_catch_up(c, motion);
-        knurl_candidate_place_anew(candidate, motion, &c->clock, &a->pose, &pose_before);
+        knurl_candidate_place_anew(candidate, motion, &c->clock, &a->pose, &before);
+    }
+    return 1;
+}
+
+/* Tests only `candidate`, which is in contact, if nothing else is near the HIP. Returns 0, with the contact unchanged,
+ * if joint contact has to decide; the cache then holds the query's result. margin: as for is_within_view(). */
+static inline int hold_alone(knurl_contacts *c, const knurl_broad_index *index, knurl_candidate *candidate,
+                             const double position[3], double margin) {
+    knurl_active_contact *a = &c->now.list[0];
+    knurl_contact_state *state = &candidate->contact;
+    double hip[3], proxy[3], normal[3];
+    a->candidate = candidate;
+    if (!place_alone(c, index, a)) {
+        return 0;
     }
     knurl_pose_to_own(a->pose, position, hip);
     const knurl_plane *plane = a->surface->shape.plane;
-    int held = plane && knurl_plane_hold(plane, hip, state, &a->contact);
-    const int is_asked = !held;
+    const int held_by_plane = plane && knurl_plane_hold(plane, hip, state, &a->contact);
     const knurl_contact_state before = *state;
-    held = held || query_shape(c, a, hip, state);
-    const int is_settled = held && !a->contact.unsure && c->visits.left > 0;
+    const int held = held_by_plane || query_shape(c, a, hip, state);
+    const int is_settled = held && !a->contact.unsure && c->budget.visits.left > 0;
     if (KNURL_LIKELY(is_settled)) {
         knurl_pose_to_parent(a->pose, a->contact.proxy, proxy);
         knurl_pose_vector_to_parent(a->pose, a->contact.normal, normal);
     }
     if (KNURL_UNLIKELY(!is_settled) || (state->inside && KNURL_UNLIKELY(!is_within_view(c, margin, proxy)))) {
-        if (is_asked) {
-            c->asked.held = held;
-            c->asked.state = *state;
-            c->asked.contact = a->contact;
-            c->asked.parts.count = 0;
-            c->asked_of = candidate;
+        if (!held_by_plane) {
+            c->cache.of = candidate;
+            c->cache.result.held = held;
+            c->cache.result.state = *state;
+            c->cache.result.contact = a->contact;
+            c->cache.result.parts.count = 0;
             *state = before;
         }
         return 0;
@@ -83,8 +92,8 @@ static inline int hold_alone(knurl_contacts *c, const knurl_broad_index *index, 
     a->normal = candidate->normal;
     a->begins = a->is_unfelt = a->is_sharp = 0;
     a->felt.parts.count = 0;
-    c->active_count = 1;
-    c->pressed = (uint32_t)state->inside;
+    c->now.count = 1;
+    c->proxy.holders = (uint32_t)state->inside;
     return 1;
 }
 
@@ -92,39 +101,29 @@ void knurl_contacts_init(knurl_contacts *c, double period, double time) {
     memset(c, 0, sizeof *c);
     c->clock.period = period;
     c->clock.time = time;
-    c->max_visits = KNURL_VISITS_MAX;
+    c->budget.max = KNURL_VISITS_MAX;
     knurl_contacts_reset(c);
 }
 
 void knurl_contacts_reset(knurl_contacts *c) {
     knurl_candidates_reset(&c->candidates);
     c->has_previous = 0;
-    c->depth = 0.0;
-    c->active_count = 0;
-    c->pressed = 0;
-    c->held_by = NULL;
+    c->proxy.depth = 0.0;
+    c->now.count = 0;
+    c->proxy.holders = 0;
     c->slip.time = -1.0;
 }
 
-/* Keeps the proxy for the next tick. If a surface holds the HIP it is computed on demand, since few ticks need it. */
+/* Keeps the proxy for the next tick: above the surface that holds the HIP alone, or the HIP itself. */
 static inline void keep_proxy(knurl_contacts *c, const double position[3]) {
-    if (KNURL_LIKELY(c->pressed)) {
-        c->held_by = c->active[0].candidate;
-        c->held_off = c->active[0].surface->shape.seam;
-        c->depth = fabs(c->active[0].contact.z);
+    const knurl_active_contact *a = &c->now.list[0];
+    if (KNURL_LIKELY(c->proxy.holders)) {
+        vec3_madd(a->candidate->proxy, a->surface->shape.seam, a->candidate->normal, c->proxy.at);
+        vec3_copy(a->candidate->normal, c->proxy.normal);
+        c->proxy.depth = fabs(a->contact.z);
     } else {
-        c->held_by = NULL;
-        vec3_copy(position, c->proxy);
-        c->depth = 0.0;
-    }
-}
-
-/* Computes the proxy and the normal that keep_proxy() has deferred. */
-static void settle_proxy(knurl_contacts *c) {
-    if (c->held_by) {
-        vec3_madd(c->held_by->proxy, c->held_off, c->held_by->normal, c->proxy);
-        vec3_copy(c->held_by->normal, c->normal);
-        c->held_by = NULL;
+        vec3_copy(position, c->proxy.at);
+        c->proxy.depth = 0.0;
     }
 }
 
@@ -142,7 +141,7 @@ static int comes_near(const knurl_contacts *c, const knurl_broad_index *index, k
 static knurl_candidate *find_alone(knurl_contacts *c, const knurl_broad_index *index, const knurl_hip_path *path,
                                    double margin) {
     knurl_candidate *alone = NULL;
-    if (c->active_count != 1 || c->pressed > 1 || path->is_first || path->everything ||
+    if (c->now.count != 1 || c->proxy.holders > 1 || path->is_first || path->test_all ||
         knurl_contacts_have_slipped(c)) {
         return NULL;
     }
@@ -159,19 +158,19 @@ static knurl_candidate *find_alone(knurl_contacts *c, const knurl_broad_index *i
 
 /* m: distance within which the HIP may meet other surfaces: its depth or, after a slip off a rim, that to the rim. */
 static double find_depth(const knurl_contacts *c, const double position[3]) {
-    return knurl_contacts_have_slipped(c) ? knurl_max(c->depth, sqrt(vec3_distance2(c->slip.proxy, position)))
-                                          : c->depth;
+    return knurl_contacts_have_slipped(c) ? knurl_max(c->proxy.depth, sqrt(vec3_distance2(c->slip.proxy, position)))
+                                          : c->proxy.depth;
 }
 
 /* The HIP's path in this tick. */
 static knurl_hip_path find_path(const knurl_contacts *c, const double position[3]) {
     knurl_hip_path path = {.from = c->has_previous ? c->previous : position,
                            .to = position,
-                           .proxy = c->pressed ? c->proxy : position,
+                           .proxy = c->proxy.holders ? c->proxy.at : position,
                            .depth = find_depth(c, position),
                            .time = c->clock.time,
                            .is_first = !c->has_previous,
-                           .everything = c->everything};
+                           .test_all = c->test_all};
     knurl_hip_path_bound(&path);
     return path;
 }
@@ -180,7 +179,6 @@ static knurl_hip_path find_path(const knurl_contacts *c, const double position[3
 __attribute__((noinline)) static knurl_candidate *update_candidates(knurl_contacts *c, const knurl_broad_phase *phase,
                                                                     const knurl_broad_index *index,
                                                                     const double position[3], double *margin) {
-    settle_proxy(c);
     const knurl_hip_path path = find_path(c, position);
     *margin = knurl_hip_path_margin(&path);
     knurl_candidates_update(&c->candidates, phase, index, &path);
@@ -189,12 +187,11 @@ __attribute__((noinline)) static knurl_candidate *update_candidates(knurl_contac
 
 /* Measures the clearance of a HIP that is in contact with `alone` only. */
 static void measure_alone(knurl_contacts *c, const knurl_candidate *alone, const double position[3]) {
-    settle_proxy(c);
     for (uint32_t i = 0; i < c->candidates.count; i++) {
         knurl_candidate *candidate = knurl_candidates_at(&c->candidates, i);
         candidate->has_previous &= candidate == alone;
     }
-    knurl_candidates_measure(&c->candidates, position, c->proxy, 0);
+    knurl_candidates_measure(&c->candidates, position, c->proxy.at, 0);
 }
 
 /* A tick of joint contact with at most this many visits had little to do. */
@@ -204,35 +201,36 @@ static void measure_alone(knurl_contacts *c, const knurl_candidate *alone, const
 __attribute__((noinline)) static void find_jointly(knurl_contacts *c, const knurl_broad_phase *phase,
                                                    const knurl_broad_index *index, const double position[3],
                                                    uint32_t *flags) {
-    settle_proxy(c);
     const knurl_hip_path path = find_path(c, position);
-    const uint32_t before = c->active_count;
-    c->ramped_depth = knurl_contacts_have_slipped(c) ? c->slip.ramped_depth : 0.0;
-    for (uint32_t i = 0; i < c->candidates.count && c->pressed; i++) {
+    const uint32_t before = c->now.count;
+    c->proxy.ramped_depth = knurl_contacts_have_slipped(c) ? c->slip.ramped_depth : 0.0;
+    for (uint32_t i = 0; i < c->candidates.count && c->proxy.holders; i++) {
         const knurl_candidate *candidate = knurl_candidates_at(&c->candidates, i);
-        c->ramped_depth = candidate->in_contact && candidate->guard.depth > c->ramped_depth ? candidate->guard.depth
-                                                                                            : c->ramped_depth;
+        c->proxy.ramped_depth = candidate->in_contact && candidate->guard.depth > c->proxy.ramped_depth
+                                    ? candidate->guard.depth
+                                    : c->proxy.ramped_depth;
     }
     knurl_joint_contact(c, index, &path, flags);
-    c->depth = 0.0;
-    if (c->pressed) {
+    c->proxy.depth = 0.0;
+    if (c->proxy.holders) {
         double way[3];
-        vec3_sub(c->proxy, position, way);
-        c->depth = vec3_length(way);
+        vec3_sub(c->proxy.at, position, way);
+        c->proxy.depth = vec3_length(way);
     }
-    if (c->pressed && knurl_visits_of(c->max_visits).left - c->visits.left <= FEW_VISITS) {
+    if (c->proxy.holders && knurl_visits_of(c->budget.max).left - c->budget.visits.left <= FEW_VISITS) {
         knurl_candidates_look_ahead(&c->candidates, phase, index, &path);
     }
-    knurl_candidates_measure(&c->candidates, position, c->proxy, c->active_count < before || c->everything);
+    knurl_candidates_measure(&c->candidates, position, c->proxy.at, c->now.count < before || c->test_all);
 }
 
 void knurl_contacts_find(knurl_contacts *c, const knurl_broad_phase *phase, const knurl_broad_index *index,
                          const double position[3], int clear, uint32_t *flags) {
     double margin = -1.0;
-    c->cut_short = KNURL_UNLIKELY(c->visits.exhausted) ? c->cut_short + (c->cut_short < 5) : 0;
-    c->visits = knurl_visits_of(c->max_visits);
-    c->asked_of = NULL;
-    knurl_candidate *alone = KNURL_LIKELY(clear && c->active_count == 1) ? c->active[0].candidate : NULL;
+    c->budget.short_ticks =
+        KNURL_UNLIKELY(c->budget.visits.exhausted) ? c->budget.short_ticks + (c->budget.short_ticks < 5) : 0;
+    c->budget.visits = knurl_visits_of(c->budget.max);
+    c->cache.of = NULL;
+    knurl_candidate *alone = KNURL_LIKELY(clear && c->now.count == 1) ? c->now.list[0].candidate : NULL;
     if (KNURL_UNLIKELY(!clear)) {
         alone = update_candidates(c, phase, index, position, &margin);
     }
@@ -247,7 +245,7 @@ void knurl_contacts_find(knurl_contacts *c, const knurl_broad_phase *phase, cons
     if (KNURL_UNLIKELY(c->candidates.overflow)) {
         *flags |= KNURL_TICK_CONTACTS_FULL;
     }
-    if (KNURL_UNLIKELY(c->visits.exhausted)) {
+    if (KNURL_UNLIKELY(c->budget.visits.exhausted)) {
         *flags |= KNURL_TICK_VISIT_LIMIT;
     }
 }

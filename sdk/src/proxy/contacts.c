@@ -24,11 +24,11 @@ void knurl_contacts_note_change(knurl_candidate *candidate, const knurl_surface_
 
 int knurl_contacts_add(knurl_contacts *c, knurl_candidate *candidate, const knurl_surface_data *surface,
                        const knurl_record *record, const knurl_pose *pose, const knurl_touched *touched) {
-    if (c->active_count == KNURL_CONTACTS_MAX) {
+    if (c->now.count == KNURL_CONTACTS_MAX) {
         knurl_contacts_end(candidate);
         return 0;
     }
-    knurl_active_contact *a = &c->active[c->active_count++];
+    knurl_active_contact *a = &c->now.list[c->now.count++];
     a->surface = surface;
     a->record = record;
     a->pose = pose;
@@ -39,7 +39,7 @@ int knurl_contacts_add(knurl_contacts *c, knurl_candidate *candidate, const knur
     if (a->begins) {
         memset(&candidate->grating, 0, sizeof candidate->grating);
         candidate->facet.side = 0;
-        knurl_wall_begin(&candidate->guard, c->ramped_depth);
+        knurl_wall_begin(&candidate->guard, c->proxy.ramped_depth);
     }
     candidate->contact = touched->state;
     candidate->in_contact = 1;

@@ -53,27 +53,45 @@ typedef struct knurl_touched {
     knurl_felt_parts parts; /* of a smooth mesh */
 } knurl_touched;
 
+/* The contacts of this tick; their pointers are invalid after it. */
+typedef struct knurl_contacts_now {
+    knurl_active_contact list[KNURL_CONTACTS_MAX];
+    uint32_t count;
+} knurl_contacts_now;
+
+/* The proxy at the last tick. Scene axes. */
+typedef struct knurl_proxy {
+    double at[3];        /* outside of every surface; the HIP if nothing holds it */
+    double normal[3];    /* unit */
+    double depth;        /* m; 0 if no surface held the HIP */
+    double ramped_depth; /* m: as limited by the entry ramp; a contact that begins continues from it */
+    uint32_t holders;    /* surfaces that held the HIP */
+} knurl_proxy;
+
+/* The visits of a tick. */
+typedef struct knurl_visit_budget {
+    uint32_t max; /* per tick: KNURL_VISITS_MAX, fewer or more in tests */
+    knurl_visits visits;
+    uint32_t short_ticks; /* consecutive ticks, up to the last, that used up their visits; at most 5 */
+} knurl_visit_budget;
+
+/* The query of this tick that joint contact need not repeat. */
+typedef struct knurl_query_cache {
+    const knurl_candidate *of; /* candidate queried alone, or null */
+    knurl_touched result;
+} knurl_query_cache;
+
 /* Of one HIP, from tick to tick. */
 typedef struct knurl_contacts {
     knurl_hip_clock clock;
-    double previous[3];             /* HIP position at the last tick, scene */
-    double depth;                   /* m: at the last tick; 0 if no surface held the HIP */
-    double proxy[3];                /* at the last tick, scene: outside of every surface */
-    double normal[3];               /* unit normal of the proxy, scene */
-    const knurl_candidate *held_by; /* if set: proxy and normal are computed on demand from this candidate */
-    double held_off;                /* m: height of the proxy above that candidate's surface */
-    uint32_t pressed;               /* number of surfaces that held the HIP; 0: the proxy is the HIP */
-    double ramped_depth;            /* m: depth as limited by the entry ramp; a contact that begins continues from it */
+    double previous[3]; /* HIP position at the last tick, scene */
     int32_t has_previous;
+    int32_t test_all; /* 1: test every surface in every tick (KNURL_FULL_SEARCH) */
+    knurl_proxy proxy;
     knurl_slip slip;
-    int32_t everything;                              /* 1: test every surface in every tick (KNURL_FULL_SEARCH) */
-    knurl_active_contact active[KNURL_CONTACTS_MAX]; /* in this tick; their pointers are invalid after it */
-    uint32_t active_count;
-    knurl_touched asked;             /* result of `asked_of`, so that joint contact need not repeat it */
-    uint32_t cut_short;              /* consecutive ticks, up to the last, that used up their visits; at most 5 */
-    const knurl_candidate *asked_of; /* candidate queried alone in this tick, or null */
-    uint32_t max_visits;             /* per tick */
-    knurl_visits visits;             /* of this tick */
+    knurl_contacts_now now;
+    knurl_query_cache cache;
+    knurl_visit_budget budget;
     knurl_candidates candidates;
 } knurl_contacts;
 

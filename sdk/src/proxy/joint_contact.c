@@ -17,7 +17,7 @@ static int begin_contact(knurl_joint_search *m) {
     knurl_joint_set_free(m);
     for (uint32_t i = 0; i < m->near.count; i++) {
         knurl_joint_query_contact(m, &m->near.list[i], &m->touched[i]);
-        m->asked = i + 1;
+        m->queried = i + 1;
         if (m->touched[i].contact.unsure || (knurl_joint_is_inside(&m->touched[i]) && holder != KNURL_NO_OBSTACLE) ||
             knurl_obstacles_are_unknown(&m->near)) {
             return 0;
@@ -35,7 +35,7 @@ static int begin_contact(knurl_joint_search *m) {
 /* The only surface that held the HIP in the last tick, or KNURL_NO_OBSTACLE. */
 static uint32_t find_holder(const knurl_joint_search *m) {
     uint32_t holder = KNURL_NO_OBSTACLE;
-    for (uint32_t i = 0; i < m->near.count && m->contacts->pressed == 1; i++) {
+    for (uint32_t i = 0; i < m->near.count && m->contacts->proxy.holders == 1; i++) {
         holder = m->near.list[i].candidate->contact.inside ? i : holder;
     }
     return holder;
@@ -50,7 +50,7 @@ static int continue_contact(knurl_joint_search *m) {
     }
     knurl_touched *touched = &m->touched[holder];
     knurl_joint_query_contact(m, &m->near.list[holder], touched);
-    m->asked = m->near.count == 1;
+    m->queried = m->near.count == 1;
     const int unsure = touched->contact.unsure;
     if ((!touched->held && unsure) || knurl_obstacles_are_unknown(&m->near)) {
         return 0;
@@ -59,9 +59,9 @@ static int continue_contact(knurl_joint_search *m) {
     if (knurl_joint_is_inside(touched)) {
         knurl_joint_set_proxy(m, holder);
     }
-    if (!is_collected(m, c->proxy) ||
-        !knurl_god_object_can_go(&m->near, c->proxy, c->normal, m->proxy, m->pressed ? m->normal : c->normal,
-                                 unsure ? KNURL_NO_OBSTACLE : holder)) {
+    if (!is_collected(m, c->proxy.at) ||
+        !knurl_god_object_can_go(&m->near, c->proxy.at, c->proxy.normal, m->proxy,
+                                 m->pressed ? m->normal : c->proxy.normal, unsure ? KNURL_NO_OBSTACLE : holder)) {
         return 0;
     }
     for (uint32_t i = 0; i < m->near.count; i++) {
@@ -142,9 +142,9 @@ static void keep_contacts(knurl_joint_search *m) {
         const knurl_obstacle *o = &m->near.list[i];
         keep_contact(m, o, &m->touched[i]);
         if (knurl_joint_is_inside(&m->touched[i]) && m->pressed++ == 0) {
-            knurl_pose_to_own(o->before, m->contacts->proxy, m->proxy);
+            knurl_pose_to_own(o->before, m->contacts->proxy.at, m->proxy);
             knurl_pose_to_parent(o->pose, m->proxy, m->proxy);
-            vec3_copy(m->contacts->normal, m->normal);
+            vec3_copy(m->contacts->proxy.normal, m->normal);
         }
     }
 }
@@ -153,18 +153,18 @@ static void keep_contacts(knurl_joint_search *m) {
  * that needs more is queried again in the next tick, over the whole path since. */
 static void begin_alone(knurl_joint_search *m) {
     knurl_contacts *c = m->contacts;
-    const uint32_t share = c->max_visits / 2 / (m->near.count > 0 ? m->near.count : 1);
+    const uint32_t share = c->budget.max / 2 / (m->near.count > 0 ? m->near.count : 1);
     double deepest = 1.0;
     uint32_t pressed = 0;
     knurl_joint_set_free(m);
     for (uint32_t i = 0; i < m->near.count; i++) {
         knurl_touched *touched = &m->touched[i];
-        if (i >= m->asked || !knurl_joint_is_inside(touched)) {
-            c->asked_of = NULL;
-            c->visits.left = knurl_visits_of(share).left;
+        if (i >= m->queried || !knurl_joint_is_inside(touched)) {
+            c->cache.of = NULL;
+            c->budget.visits.left = knurl_visits_of(share).left;
             knurl_joint_query_contact(m, &m->near.list[i], touched);
         }
-        if (c->visits.left == 0 && !knurl_joint_is_inside(touched)) {
+        if (c->budget.visits.left == 0 && !knurl_joint_is_inside(touched)) {
             keep_contact(m, &m->near.list[i], touched);
             m->late |= (uint64_t)!touched->held << i;
         }
@@ -223,51 +223,63 @@ static void make_room(knurl_joint_search *m, uint64_t held, uint32_t *flags) {
     }
 }
 
+/* Finds this tick's contacts and proxy. Sets `unknown` if the visits ran out before. */
+static void search(knurl_joint_search *m, uint32_t *flags) {
+    const knurl_contacts *c = m->contacts;
+    const int may_be_alone = c->proxy.holders <= 1 && !knurl_contacts_have_slipped(c);
+    if (may_be_alone) {
+        knurl_joint_collect(m, m->path, m->path->is_first ? KNURL_CAPTURE_DEPTH : m->margin);
+    } else {
+        knurl_joint_collect_all(m);
+    }
+    if (!c->has_previous || m->jumped) {
+        find_first(m);
+    } else if (!may_be_alone) {
+        knurl_joint_search_faces(m, flags);
+    } else if (!(c->proxy.holders ? continue_contact(m) : begin_contact(m))) {
+        knurl_joint_collect_all(m);
+        knurl_joint_search_faces(m, flags);
+    }
+}
+
+/* Makes the results the HIP's contacts, at most KNURL_CONTACTS_MAX. */
+static void commit(knurl_joint_search *m, uint32_t *flags) {
+    knurl_contacts *c = m->contacts;
+    uint64_t held = 0;
+    c->now.count = 0;
+    for (uint32_t i = 0; i < m->near.count; i++) {
+        held |= (uint64_t)(m->near.list[i].candidate->in_contact != 0) << i;
+    }
+    make_room(m, held, flags);
+    update_contacts(m, held, flags); /* first, so that they keep their places */
+    if (m->near.count > 1 || held == 0) {
+        update_contacts(m, ~held, flags);
+    }
+    vec3_copy(m->proxy, c->proxy.at);
+    vec3_copy(m->normal, c->proxy.normal);
+    c->proxy.holders = m->pressed;
+    c->slip.time = m->pressed ? -1.0 : c->slip.time;
+}
+
 void knurl_joint_contact(knurl_contacts *c, const knurl_broad_index *index, const knurl_hip_path *path,
                          uint32_t *flags) {
     knurl_joint_search m;
-    uint64_t held = 0;
     m.contacts = c;
     m.index = index;
     m.path = path;
-    m.near.visits = &c->visits;
+    m.near.visits = &c->budget.visits;
     m.unknown = 0;
-    m.asked = 0;
+    m.queried = 0;
     m.late = 0;
     m.sharp = 0;
     m.hip = path->to;
     m.margin = knurl_hip_path_margin(path);
-    const int may_be_alone = c->pressed <= 1 && !knurl_contacts_have_slipped(c);
-    if (may_be_alone) {
-        knurl_joint_collect(&m, path, path->is_first ? KNURL_CAPTURE_DEPTH : m.margin);
-    } else {
-        knurl_joint_collect_all(&m);
-    }
-    vec3_copy(c->normal, m.normal);
-    if (!c->has_previous || m.jumped) {
-        find_first(&m);
-    } else if (!may_be_alone) {
-        knurl_joint_search_faces(&m, flags);
-    } else if (!(c->pressed ? continue_contact(&m) : begin_contact(&m))) {
-        knurl_joint_collect_all(&m);
-        knurl_joint_search_faces(&m, flags);
-    }
-    if (m.unknown && c->pressed) {
+    vec3_copy(c->proxy.normal, m.normal);
+    search(&m, flags);
+    if (m.unknown && c->proxy.holders) {
         keep_contacts(&m);
     } else if (m.unknown) {
         begin_alone(&m);
     }
-    c->active_count = 0;
-    for (uint32_t i = 0; i < m.near.count; i++) {
-        held |= (uint64_t)(m.near.list[i].candidate->in_contact != 0) << i;
-    }
-    make_room(&m, held, flags);
-    update_contacts(&m, held, flags); /* first, so that they keep their places */
-    if (m.near.count > 1 || held == 0) {
-        update_contacts(&m, ~held, flags);
-    }
-    vec3_copy(m.proxy, c->proxy);
-    vec3_copy(m.normal, c->normal);
-    c->pressed = m.pressed;
-    c->slip.time = c->pressed ? -1.0 : c->slip.time;
+    commit(&m, flags);
 }

@@ -125,12 +125,12 @@ static void find_next(knurl_joint_search *m, knurl_god_object *g) {
 /* Records a slip off a rim, if contact ended although the HIP did not leave through the front. */
 static void note_slip(knurl_contacts *c, const double hip[3]) {
     double way[3];
-    vec3_sub(hip, c->proxy, way);
-    if (vec3_dot(way, c->normal) < -KNURL_JOINT_ROUNDING) {
+    vec3_sub(hip, c->proxy.at, way);
+    if (vec3_dot(way, c->proxy.normal) < -KNURL_JOINT_ROUNDING) {
         c->slip.time = c->clock.time;
-        c->slip.ramped_depth = c->ramped_depth;
-        vec3_copy(c->proxy, c->slip.proxy);
-        vec3_copy(c->normal, c->slip.normal);
+        c->slip.ramped_depth = c->proxy.ramped_depth;
+        vec3_copy(c->proxy.at, c->slip.proxy);
+        vec3_copy(c->proxy.normal, c->slip.normal);
     }
 }
 
@@ -157,8 +157,8 @@ static void follow(const knurl_joint_search *m, knurl_god_object *g) {
     double way[3];
     vec3_sub(m->hip, g->at, way);
     const double length = vec3_length(way);
-    const double longest = ldexp(2.0 * SHORT_WAY, -(int)m->contacts->cut_short);
-    if (m->contacts->cut_short > 0 && length > longest) {
+    const double longest = ldexp(2.0 * SHORT_WAY, -(int)m->contacts->budget.short_ticks);
+    if (m->contacts->budget.short_ticks > 0 && length > longest) {
         double target[3];
         vec3_madd(g->at, longest / length, way, target);
         knurl_god_object_follow(g, &m->near, target);
@@ -174,7 +174,7 @@ void knurl_joint_search_faces(knurl_joint_search *m, uint32_t *flags) {
     knurl_god_object g;
     memset(&g, 0, sizeof g);
     m->pressed = 0;
-    vec3_copy(c->pressed ? c->proxy : c->previous, g.at);
+    vec3_copy(c->proxy.holders ? c->proxy.at : c->previous, g.at);
     knurl_god_object_push(&g, &m->near);
     follow(m, &g);
     m->unknown = knurl_obstacles_are_unknown(&m->near) &&
@@ -182,7 +182,7 @@ void knurl_joint_search_faces(knurl_joint_search *m, uint32_t *flags) {
     if (m->unknown) {
         return;
     }
-    if (g.faces.count == 0 && c->pressed && has_holder(m)) {
+    if (g.faces.count == 0 && c->proxy.holders && has_holder(m)) {
         note_slip(c, m->hip);
     }
     if (g.faces.count == 0 && knurl_contacts_have_slipped(c)) {

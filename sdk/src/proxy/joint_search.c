@@ -11,7 +11,7 @@ static double proxy_distance(const knurl_hip_path *path) {
 /* Appends an obstacle; drops the query results from slot i on if that held another one. */
 static void add_obstacle(knurl_joint_search *m, const knurl_obstacle *obstacle) {
     const uint32_t i = m->near.count++;
-    m->asked = i < m->asked && m->near.list[i].candidate != obstacle->candidate ? i : m->asked;
+    m->queried = i < m->queried && m->near.list[i].candidate != obstacle->candidate ? i : m->queried;
     m->near.list[i] = *obstacle;
     m->near.moving |= obstacle->before != obstacle->pose;
     m->jumped |= obstacle->candidate->in_contact && knurl_obstacle_has_jumped(obstacle);
@@ -40,7 +40,7 @@ void knurl_joint_collect(knurl_joint_search *m, const knurl_hip_path *path, doub
             candidate->has_previous = 0;
         }
     }
-    m->asked = m->asked < m->near.count ? m->asked : m->near.count;
+    m->queried = m->queried < m->near.count ? m->queried : m->near.count;
 }
 
 void knurl_joint_collect_all(knurl_joint_search *m) {
@@ -57,7 +57,7 @@ static void query_shape(const knurl_joint_search *m, const knurl_obstacle *o, co
     query.double_sided = o->surface->double_sided;
     query.facet = &o->candidate->facet;
     query.part = &o->candidate->part;
-    query.visits = &m->contacts->visits;
+    query.visits = &m->contacts->budget.visits;
     knurl_pose_to_own(o->pose, hip, query.hip);
     vec3_copy(query.hip, query.previous);
     if (previous && !touched->state.inside) { /* a HIP inside is tested at its position alone */
@@ -73,8 +73,8 @@ void knurl_joint_query_contact(knurl_joint_search *m, const knurl_obstacle *o, k
     const knurl_contacts *c = m->contacts;
     const int jumped = knurl_obstacle_has_jumped(o);
     const int anew = !c->has_previous || (jumped && o->candidate->in_contact);
-    if (o->candidate == c->asked_of && !anew) {
-        *touched = c->asked;
+    if (o->candidate == c->cache.of && !anew) {
+        *touched = c->cache.result;
         return;
     }
     touched->state = o->candidate->contact;

@@ -16,13 +16,13 @@ typedef struct knurl_joint_search {
     const double *hip; /* scene: the path's end */
     knurl_obstacles near;
     knurl_touched touched[KNURL_CANDIDATES_MAX];
-    int jumped;      /* 1: a surface in contact has jumped */
-    uint32_t asked;  /* number of obstacles, from the first, whose query results are in `touched` */
-    uint64_t late;   /* bit i: obstacle i's search ran out of visits, so the HIP may have crossed it */
-    uint64_t sharp;  /* bit i: the excess of obstacle i's candidate counts */
-    int unknown;     /* 1: the visits ran out before the contacts were found */
-    double margin;   /* m: obstacles this far around the path were collected; a proxy may move no farther */
-    double proxy[3]; /* results, with `touched` */
+    int jumped;       /* 1: a surface in contact has jumped */
+    uint32_t queried; /* number of obstacles, from the first, whose query results are in `touched` */
+    uint64_t late;    /* bit i: obstacle i's search ran out of visits, so the HIP may have crossed it */
+    uint64_t sharp;   /* bit i: the excess of obstacle i's candidate counts */
+    int unknown;      /* 1: the visits ran out before the contacts were found */
+    double margin;    /* m: obstacles this far around the path were collected; a proxy may move no farther */
+    double proxy[3];  /* results, with `touched` */
     double normal[3];
     uint32_t pressed;
 } knurl_joint_search;
@@ -63,7 +63,8 @@ static inline int knurl_joint_is_inside(const knurl_touched *touched) {
 
 /* 1 if the surface that holds the HIP is the only one near, and its own contact has been found. */
 static inline int knurl_joint_goes_on_alone(const knurl_joint_search *m) {
-    return m->contacts->pressed == 1 && m->near.count == 1 && m->asked == 1 && knurl_joint_is_inside(&m->touched[0]);
+    return m->contacts->proxy.holders == 1 && m->near.count == 1 && m->queried == 1 &&
+           knurl_joint_is_inside(&m->touched[0]);
 }
 
 #endif

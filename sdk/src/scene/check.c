@@ -171,8 +171,8 @@ static uint32_t count_meshes_near(const knurl_scene *scene, const double point[3
     uint32_t places[CROWD_MAX], count = 0;
     double low[3], high[3];
     knurl_bvh_bound(point, point, CROWD_REACH, low, high);
-    const knurl_view view = {low, high, now, 0, 1};
-    const uint32_t found = index ? knurl_broad_phase_find(index, &view, CROWD_MAX, places) : 0;
+    const knurl_broad_query query = {low, high, now, 0, 1};
+    const uint32_t found = index ? knurl_broad_phase_find(index, &query, CROWD_MAX, places) : 0;
     for (uint32_t i = 0; i < found && found <= CROWD_MAX; i++) {
         count += is_mesh_near(index->items[places[i]], point, now);
     }
@@ -265,7 +265,7 @@ static void inspect(const knurl_scene *scene, const knurl_hip *hip, const knurl_
     check->amplitude_limit = knurl_bounds_amplitude(on.bounds, wall.stiffness, m->method);
     check_wall(&on);
     check_place(&on, surface);
-    check_visits(&on, surface, hip->contacts.max_visits);
+    check_visits(&on, surface, hip->contacts.budget.max);
     check_crowd(&on, scene, surface);
     check_winding(&on, surface);
     check_normals(&on, surface);

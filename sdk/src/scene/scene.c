@@ -92,7 +92,7 @@ knurl_result knurl_scene_create(const knurl_scene_desc *desc, knurl_scene **scen
         knurl_hip_desc defaults;
         knurl_hip_desc_init(&defaults, sizeof defaults);
         (void)knurl_hip_set_up(&made->hips[hip], &defaults, &knurl_touch, HUGE_VAL, 0.0); /* the defaults are valid */
-        made->hips[hip].contacts.everything = (made->full_model & KNURL_FULL_SEARCH) != 0;
+        made->hips[hip].contacts.test_all = (made->full_model & KNURL_FULL_SEARCH) != 0;
         knurl_epoch_add_pin(&made->epoch, &made->hips[hip].pinned);
     }
     *scene = made;

@@ -18,7 +18,7 @@ static knurl_result set_up(knurl_scene *scene, knurl_hip *hip, const knurl_hip_d
                            double strongest) {
     const knurl_result result = knurl_hip_set_up(hip, d, device, strongest, knurl_scene_time(scene));
     if (!result) {
-        hip->contacts.everything = (scene->full_model & KNURL_FULL_SEARCH) != 0;
+        hip->contacts.test_all = (scene->full_model & KNURL_FULL_SEARCH) != 0;
         if (hip->centred && scene->committed) {
             knurl_scene_centre(scene, hip->workspace.origin);
         }

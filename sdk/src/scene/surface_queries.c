@@ -232,8 +232,8 @@ uint32_t knurl_scene_get_contacts(const knurl_scene *scene, uint32_t hip, knurl_
     }
     const knurl_contacts *c = &scene->hips[hip].contacts;
     uint32_t count = 0;
-    for (uint32_t i = 0; i < c->active_count; i++) {
-        const knurl_active_contact *active = &c->active[i];
+    for (uint32_t i = 0; i < c->now.count; i++) {
+        const knurl_active_contact *active = &c->now.list[i];
         const knurl_candidate *candidate = active->candidate;
         if (active->is_unfelt || count++ >= capacity || !contacts) {
             continue;

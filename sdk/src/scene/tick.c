@@ -177,7 +177,7 @@ static inline double render_contact(knurl_hip *hip, const knurl_tick_input *inpu
 /* 1 if there is no contact, no added force and no force at the last tick: there is nothing to limit. */
 static inline int is_at_rest(const knurl_hip *hip, const knurl_added_force *added) {
     const double *force = hip->last.force;
-    return hip->contacts.active_count == 0 && !added && force[0] == 0.0 && force[1] == 0.0 && force[2] == 0.0;
+    return hip->contacts.now.count == 0 && !added && force[0] == 0.0 && force[1] == 0.0 && force[2] == 0.0;
 }
 
 /* Converts the sum of all forces to device axes and limits it there: a rotating workspace must not make the device's
@@ -208,8 +208,8 @@ static inline double sum_forces(knurl_hip *hip, const knurl_tick_input *input, c
                                 knurl_tick_output *out) {
     double force[3] = {0.0, 0.0, 0.0};
     double steps = 0.0;
-    for (uint32_t i = 0; i < hip->contacts.active_count; i++) {
-        steps += render_contact(hip, input, &hip->contacts.active[i], force, out);
+    for (uint32_t i = 0; i < hip->contacts.now.count; i++) {
+        steps += render_contact(hip, input, &hip->contacts.now.list[i], force, out);
     }
     if (KNURL_UNLIKELY(added != NULL)) {
         vec3_madd(force, 1.0, added->force, force);

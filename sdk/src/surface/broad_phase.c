@@ -261,13 +261,13 @@ void knurl_broad_phase_remove(knurl_broad_phase *phase, knurl_surface_data *surf
     knurl_epoch_retire(phase->epoch, &surface->retired);
 }
 
-static inline int meets(const float *box, const knurl_view *view) {
+static inline int meets(const float *box, const knurl_broad_query *query) {
     for (int i = 0; i < 3; i++) {
         float least;
         float greatest;
         __atomic_load(&box[i], &least, __ATOMIC_RELAXED);
         __atomic_load(&box[3 + i], &greatest, __ATOMIC_RELAXED);
-        if (view->high[i] < (double)least || view->low[i] > (double)greatest) {
+        if (query->high[i] < (double)least || query->low[i] > (double)greatest) {
             return 0;
         }
     }
@@ -275,20 +275,20 @@ static inline int meets(const float *box, const knurl_view *view) {
 }
 
 /* The stored box bounds the whole motion; after arrival, or in an exact query, a smaller box counts. */
-static int is_there_now(const knurl_broad_index *index, uint32_t place, const knurl_view *view) {
+static int is_there_now(const knurl_broad_index *index, uint32_t place, const knurl_broad_query *query) {
     const knurl_surface_data *surface = __atomic_load_n(&index->items[place], __ATOMIC_SEQ_CST);
     if (!surface || !knurl_load_relaxed(&index->rank[place])) {
         return surface != NULL; /* a surface at rest fills its box */
     }
     const knurl_record *record = __atomic_load_n(&surface->record, __ATOMIC_SEQ_CST);
-    if (view->exact) {
-        return meets(knurl_record_box(record, view->time), view);
+    if (query->exact) {
+        return meets(knurl_record_box(record, query->time), query);
     }
-    return !knurl_motion_is_over(&record->motion, view->time) || meets(record->arrived, view);
+    return !knurl_motion_is_over(&record->motion, query->time) || meets(record->arrived, query);
 }
 
-static inline int is_there(const knurl_broad_index *index, uint32_t place, const knurl_view *view) {
-    return meets(index->boxes[place], view) && is_there_now(index, place, view);
+static inline int is_there(const knurl_broad_index *index, uint32_t place, const knurl_broad_query *query) {
+    return meets(index->boxes[place], query) && is_there_now(index, place, query);
 }
 
 static uint32_t note(uint32_t place, uint32_t limit, uint32_t count, uint32_t *places) {
@@ -311,12 +311,12 @@ static int is_noted(const knurl_broad_index *index, uint32_t place, uint32_t lim
     return noted;
 }
 
-static uint32_t find_still(const knurl_broad_index *index, const knurl_view *view, uint32_t limit, uint32_t count,
-                           uint32_t *places) {
+static uint32_t find_still(const knurl_broad_index *index, const knurl_broad_query *query, uint32_t limit,
+                           uint32_t count, uint32_t *places) {
     uint32_t stack[KNURL_BVH_DEPTH_MAX];
     uint32_t top = 0;
     knurl_search_box box; /* rounded outwards: is_there() compares exactly */
-    knurl_search_box_set(view->low, view->high, &box);
+    knurl_search_box_set(query->low, query->high, &box);
     if (index->node_count > 0) {
         stack[top++] = 0;
     }
@@ -328,7 +328,7 @@ static uint32_t find_still(const knurl_broad_index *index, const knurl_view *vie
         }
         for (uint32_t i = 0; i < node->count && count <= limit; i++) {
             const uint32_t place = index->order[node->first + i];
-            if (is_there(index, place, view) && /* it may have moved away since */
+            if (is_there(index, place, query) && /* it may have moved away since */
                 !is_noted(index, place, limit, count, places)) {
                 count = note(place, limit, count, places);
             }
@@ -341,12 +341,12 @@ static uint32_t find_still(const knurl_broad_index *index, const knurl_view *vie
     return count;
 }
 
-uint32_t knurl_broad_phase_find(const knurl_broad_index *index, const knurl_view *view, uint32_t limit,
+uint32_t knurl_broad_phase_find(const knurl_broad_index *index, const knurl_broad_query *query, uint32_t limit,
                                 uint32_t *places) {
     uint32_t count = 0;
-    if (view->everything) {
+    if (query->test_all) {
         for (uint32_t place = 0; place < index->capacity && count <= limit; place++) {
-            if (is_there(index, place, view)) {
+            if (is_there(index, place, query)) {
                 count = note(place, limit, count, places);
             }
         }
@@ -355,12 +355,12 @@ uint32_t knurl_broad_phase_find(const knurl_broad_index *index, const knurl_view
     const uint32_t dynamic = knurl_load_acquire(&index->dynamic_count);
     for (uint32_t first = 0; first < dynamic && count <= limit; first += KNURL_DYNAMIC_GROUP) {
         const uint32_t end = dynamic - first < KNURL_DYNAMIC_GROUP ? dynamic : first + KNURL_DYNAMIC_GROUP;
-        const int is_near = meets(index->groups[first / KNURL_DYNAMIC_GROUP], view);
+        const int is_near = meets(index->groups[first / KNURL_DYNAMIC_GROUP], query);
         for (uint32_t i = first; is_near && i < end && count <= limit; i++) {
-            if (is_there(index, index->dynamic[i], view)) {
+            if (is_there(index, index->dynamic[i], query)) {
                 count = note(index->dynamic[i], limit, count, places);
             }
         }
     }
-    return find_still(index, view, limit, count, places);
+    return find_still(index, query, limit, count, places);
 }

@@ -58,17 +58,17 @@ void knurl_broad_phase_replace(knurl_broad_phase *phase, knurl_surface_data *old
 void knurl_broad_phase_remove(knurl_broad_phase *phase, knurl_surface_data *surface);
 
 /* A query. */
-typedef struct knurl_view {
+typedef struct knurl_broad_query {
     const double *low; /* a box, scene axes, m */
     const double *high;
-    double time;    /* s: of a motion that is over by then only its end counts */
-    int everything; /* 1: search without the hierarchy */
-    int exact;      /* 1: without the margin around moving surfaces */
-} knurl_view;
+    double time;  /* s: of a motion that is over by then only its end counts */
+    int test_all; /* 1: search without the hierarchy */
+    int exact;    /* 1: without the margin around moving surfaces */
+} knurl_broad_query;
 
-/* Finds the places of the surfaces whose boxes meet a view. Writes at most `limit` of them; returns their number, at
+/* Finds the places of the surfaces whose boxes meet a query's. Writes at most `limit` of them; returns their number, at
  * most limit + 1. Allowed in a tick. */
-uint32_t knurl_broad_phase_find(const knurl_broad_index *index, const knurl_view *view, uint32_t limit,
+uint32_t knurl_broad_phase_find(const knurl_broad_index *index, const knurl_broad_query *query, uint32_t limit,
                                 uint32_t *places) KNURL_NONBLOCKING;
 
 #endif
