@@ -1,8 +1,7 @@
 /* Room to grow in structs without struct_size: inputs must have zeros there, outputs are given zeros, so that a later
  * version can give them a meaning. SPDX-License-Identifier: MIT */
+#include "support/idle_device.h"
 #include "support/scenes.h"
-
-#include <knurl/device_functions.h>
 
 #include <string.h>
 
@@ -89,11 +88,6 @@ TEST(a_grating_has_zeros_where_it_is_reserved) {
 
 static uint32_t reserved_word;
 
-static void get_info(void *user, knurl_device_info *info) {
-    (void)user;
-    info->max_force = 3.0;
-}
-
 static knurl_result read_sample(void *user, knurl_device_sample *sample) {
     static const uint32_t zeros[9];
     (void)user;
@@ -102,21 +96,12 @@ static knurl_result read_sample(void *user, knurl_device_sample *sample) {
     return KNURL_OK;
 }
 
-static knurl_result write_force(void *user, const double force[3]) {
-    (void)user;
-    (void)force;
-    return KNURL_OK;
-}
-
 TEST(a_callers_device_gives_samples_with_zeros_where_they_are_reserved) {
-    knurl_device_functions functions;
+    knurl_device_functions functions = idle_functions();
     knurl_device *device = NULL;
     knurl_device_sample sample;
     knurl_device_event event;
-    knurl_device_functions_init(&functions, sizeof functions);
-    functions.get_info = get_info;
     functions.read = read_sample;
-    functions.write = write_force;
     assert_int_equal(knurl_device_open_functions(&functions, &device), KNURL_OK);
     reserved_word = 7;
     memset(&sample, 0x55, sizeof sample);

@@ -30,7 +30,7 @@ MODULE_ARROWS = {("gltf", "scene"): 860, ("loop", "device"): 81, ("loop", "scene
 BOXES = {
     "tick": (675, 206, 330, "tick", "the steps below, one by one", ["scene/tick"]),
     "edits": (330, 206, 180, "edits, questions", "from other threads",
-              ["scene/edit", "scene/check", "scene/motors", "scene/scene_hips", "scene/surface_info", "scene/surface_queries",
+              ["scene/edit", "scene/check", "scene/scene_hips", "scene/surface_info", "scene/surface_queries",
                "stroke/walk", "stroke/lay"]),
     "state": (675, 288, 100, "scene, hip", "all that is kept", ["scene/scene", "hip/hip", "hip/hip_workspace"]),
     "broad_phase": (238, 372, 108, "broad_phase", "what is near", ["surface/broad_phase"]),

@@ -3,6 +3,7 @@
  * from the headers, so that no function is left out. Each call is made in a process of its own.
  * SPDX-License-Identifier: MIT */
 #include "support/close.h"
+#include "support/idle_device.h"
 
 #include "session.h"
 
@@ -82,23 +83,6 @@ static void no_force(uint64_t tick, const knurl_device_sample *sample, double fo
     force[0] = force[1] = force[2] = 0.0;
 }
 
-static void get_info(void *user, knurl_device_info *info) {
-    (void)user;
-    info->max_force = 1.0;
-}
-
-static knurl_result read_none(void *user, knurl_device_sample *sample) {
-    (void)user;
-    memset(sample, 0, sizeof *sample);
-    return KNURL_OK;
-}
-
-static knurl_result write_none(void *user, const double force[3]) {
-    (void)user;
-    (void)force;
-    return KNURL_OK;
-}
-
 static knurl_surface_id add_plate(fixture *f, knurl_scene *scene) {
     knurl_surface_id id = 0;
     NEED_OK(knurl_scene_add_surface(scene, &f->with.surface_desc, &id));
@@ -135,9 +119,7 @@ static void fill_structs(fixture *f) {
     w->surface_desc.name = "plate";
     w->surface_desc.plane = &w->plane_desc;
     w->surface_desc.material = &w->material_desc;
-    w->device_functions.get_info = get_info;
-    w->device_functions.read = read_none;
-    w->device_functions.write = write_none;
+    w->device_functions = idle_functions();
     w->grating.spatial_frequency[0] = 1000.0;
     w->grating.update_rate_hz = 1000.0;
     w->grating.method = KNURL_METHOD_BANDLIMITED;

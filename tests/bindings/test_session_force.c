@@ -1,6 +1,7 @@
 /* What a game asks of the force beside its surfaces, and a workspace that goes with its node.
  * SPDX-License-Identifier: MIT */
 #include "session_rig.h"
+#include "support/idle_device.h"
 
 static knurl_workspace at(double x, double z, double scale) {
     knurl_workspace workspace;
@@ -176,29 +177,15 @@ static knurl_result read_turned(void *user, knurl_device_sample *sample) {
     return KNURL_OK;
 }
 
-static knurl_result write_nothing(void *user, const double force[3]) {
-    (void)user;
-    (void)force;
-    return KNURL_OK;
-}
-
-static void get_info(void *user, knurl_device_info *info) {
-    (void)user;
-    info->max_force = 1.0;
-}
-
 TEST(a_styluss_orientation_is_told_in_scene_axes) {
     static const double over[9] = {1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0};
     SCOPED_SESSION *s = make_session();
     knurl_session_desc desc = describe("fake", "");
-    knurl_device_functions functions;
+    knurl_device_functions functions = idle_functions();
     memcpy(desc.workspace.rotation, over, sizeof over);
     open_session(s, &desc);
     knurl_device_close(s->device);
-    knurl_device_functions_init(&functions, sizeof functions);
-    functions.get_info = get_info;
     functions.read = read_turned;
-    functions.write = write_nothing;
     assert_int_equal(knurl_device_open_functions(&functions, &s->device), KNURL_OK);
     s->is_fake = 0;
     assert_int_equal(knurl_session_start(s, NULL, 0), KNURL_OK);

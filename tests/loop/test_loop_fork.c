@@ -1,6 +1,7 @@
 /* A process that forks while a loop runs: its child has the memory, and none of the threads.
  * SPDX-License-Identifier: MIT */
 #include "support/close.h"
+#include "support/idle_device.h"
 
 #include <knurl/knurl.h>
 
@@ -23,25 +24,11 @@ static knurl_result get_position(void *user, knurl_device_sample *sample) {
     return KNURL_OK;
 }
 
-static knurl_result play_force(void *user, const double force[3]) {
-    (void)user;
-    (void)force;
-    return KNURL_OK;
-}
-
-static void get_info(void *user, knurl_device_info *info) {
-    (void)user;
-    info->max_force = 1.0;
-}
-
 /* One with an I/O thread, too. */
 static knurl_device *blocking_device(void) {
-    knurl_device_functions functions;
+    knurl_device_functions functions = idle_functions();
     knurl_device *device = NULL;
-    knurl_device_functions_init(&functions, sizeof functions);
-    functions.get_info = get_info;
     functions.read = get_position;
-    functions.write = play_force;
     functions.blocking = 1;
     functions.motors_known = 1;
     assert_int_equal(knurl_device_open_functions(&functions, &device), KNURL_OK);

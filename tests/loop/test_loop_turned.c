@@ -168,10 +168,12 @@ TEST_WITH(a_halt_a_pause_and_gain_0_zero_the_force_also_after_a_squeeze, NULL, e
         step(1);
         CHECK_VECTOR(written(0), 0.0, 0.0, 0.0, 0.0);
         CHECK_VECTOR(bench_tick(&b).device_force, 0.0, 0.0, 0.0, 0.0);
-        for (int k = 0; k < 30; k++) { /* and comes back by the slew limit, if at all */
+        b.position[1] = -0.004; /* into the wall: 1.6 N, which come by the slew limit, if at all */
+        for (int k = 0; k < 30; k++) {
             step(1);
             assert_true(change() <= SLEW + 1e-9);
         }
+        assert_int_equal(vec3_length(written(0)) > 1.0, way == HALT); /* which the loop has released */
         bench_close(&b);
     }
 }

@@ -3,6 +3,7 @@
 #define _POSIX_C_SOURCE 200809L /* setenv() */
 
 #include "memory/failing.h"
+#include "support/idle_device.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -67,29 +68,8 @@ static knurl_result open_inverse3(void) {
     return open_uri("inverse3:?port=1"); /* nobody listens there */
 }
 
-static void get_info(void *user, knurl_device_info *info) {
-    (void)user;
-    info->max_force = 1.0;
-}
-
-static knurl_result read_nothing(void *user, knurl_device_sample *sample) {
-    (void)user;
-    (void)sample;
-    return KNURL_OK;
-}
-
-static knurl_result write_nothing(void *user, const double force[3]) {
-    (void)user;
-    (void)force;
-    return KNURL_OK;
-}
-
 static knurl_result open_own(uint32_t blocking) {
-    knurl_device_functions functions;
-    knurl_device_functions_init(&functions, sizeof functions);
-    functions.get_info = get_info;
-    functions.read = read_nothing;
-    functions.write = write_nothing;
+    knurl_device_functions functions = idle_functions();
     functions.blocking = blocking;
     return knurl_device_open_functions(&functions, &device);
 }

@@ -183,7 +183,7 @@ TEST(a_lift_off_leaves_nothing_behind) {
     }
 }
 
-/* Another material in mid-ridge, and an event of S2's, which is played to its end. */
+/* A change of material in the middle of a ridge is felt at once; an event that S2 has begun plays to its end. */
 TEST(another_material_is_felt_in_the_next_tick) {
     for (int change = 20; change < 26; change++) {
         surface_parts parts = grating_on(NULL, KNURL_METHOD_BANDLIMITED);

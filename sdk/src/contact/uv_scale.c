@@ -114,9 +114,9 @@ knurl_result knurl_mesh_measure_uvs(knurl_heap *heap, knurl_mesh *mesh) {
         double du[3], dv[3];
         knurl_triangle t;
         knurl_mesh_triangle(mesh, i, &t);
-        area += t.area2;
+        area += t.area_twice;
         if (knurl_mesh_uv_frame(mesh, i, du, dv)) {
-            list[count].area2 = t.area2;
+            list[count].area2 = t.area_twice;
             list[count].lengths[0] = vec3_length(du);
             list[count++].lengths[1] = vec3_length(dv);
         }

@@ -10,9 +10,6 @@
 
 #include <knurl/hip.h>
 
-/* m: highest step between two surfaces, with nothing in between, over which the HIP passes from one to the other. */
-#define KNURL_STEP_HEIGHT 1e-3
-
 /* s that a HIP may be between two surfaces: it may spend a tick in a crack that is wider than seams bridge. */
 #define KNURL_SLIP_SECONDS 0.005
 
@@ -68,10 +65,9 @@ typedef struct knurl_proxy {
     uint32_t holders;    /* surfaces that held the HIP */
 } knurl_proxy;
 
-/* The visits of a tick. */
 typedef struct knurl_visit_budget {
-    uint32_t max; /* per tick: KNURL_VISITS_MAX, fewer or more in tests */
-    knurl_visits visits;
+    knurl_visits visits;  /* of this tick */
+    uint32_t max;         /* per tick: KNURL_VISITS_MAX, fewer or more in tests */
     uint32_t short_ticks; /* consecutive ticks, up to the last, that used up their visits; at most 5 */
 } knurl_visit_budget;
 

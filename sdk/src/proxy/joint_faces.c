@@ -98,6 +98,9 @@ static void use_god_object(knurl_joint_search *m, knurl_god_object *g) {
     }
 }
 
+/* m: highest step between two surfaces, with nothing in between, over which the HIP passes from one to the other. */
+#define STEP_HEIGHT 1e-3
+
 /* The HIP has just slipped off a rim: looks above it for a surface that continues there, beyond a small step or crack.
  */
 static void find_next(knurl_joint_search *m, knurl_god_object *g) {
@@ -109,8 +112,8 @@ static void find_next(knurl_joint_search *m, knurl_god_object *g) {
     if (!(depth > 0.0)) {
         return;
     }
-    vec3_madd(slip->proxy, KNURL_STEP_HEIGHT, slip->normal, up);
-    vec3_madd(m->hip, depth + KNURL_STEP_HEIGHT, slip->normal, above);
+    vec3_madd(slip->proxy, STEP_HEIGHT, slip->normal, up);
+    vec3_madd(m->hip, depth + STEP_HEIGHT, slip->normal, above);
     knurl_hip_path path = *m->path;
     path.proxy = above;
     knurl_hip_path_bound(&path);

@@ -22,11 +22,16 @@ void knurl_surface_check_init(knurl_surface_check *check, uint32_t size) {
     knurl_desc_write(&defaults, sizeof defaults, check, size);
 }
 
-/* Adds a line about an exceeded limit: the excess, and advice unless the guard clamps to the limit anyway. Text beyond
- * the buffer is cut off. */
-static void say(const inspection *on, uint32_t limit, const char *sentence, const char *advice) {
+/* Adds a line about an exceeded limit: the excess (printf style), and advice unless the guard clamps to the limit
+ * anyway. Text beyond the buffer is cut off. */
+KNURL_PRINTF(4, 5)
+static void say(const inspection *on, uint32_t limit, const char *advice, const char *format, ...) {
     const size_t length = strlen(on->check->message);
-    char name[44];
+    char sentence[256], name[44];
+    va_list arguments;
+    va_start(arguments, format);
+    (void)knurl_format_arguments(sentence, sizeof sentence, format, arguments);
+    va_end(arguments);
     (void)knurl_text_line(name, sizeof name, on->name);
     (void)knurl_format(on->check->message + length, sizeof on->check->message - length, "%ssurface '%s': %s; %s",
                        length > 0 ? "\n" : "", name, sentence,
@@ -35,26 +40,22 @@ static void say(const inspection *on, uint32_t limit, const char *sentence, cons
 }
 
 static void check_wall(const inspection *on) {
-    char sentence[256];
     const double k = on->check->stiffness;
     const double stable = knurl_bounds_stability(on->bounds, on->material->damping);
     if (k > stable) {
-        (void)knurl_format(sentence, sizeof sentence,
-                           "stiffness %.4g N/m is %.2g times the %.4g N/m that stay stable at this rate, delay and "
-                           "friction",
-                           k, k / stable, stable);
-        say(on, KNURL_LIMIT_STABILITY, sentence, "lower it, run faster, or clamp");
+        say(on, KNURL_LIMIT_STABILITY, "lower it, run faster, or clamp",
+            "stiffness %.4g N/m is %.2g times the %.4g N/m that stay stable at this rate, delay and "
+            "friction",
+            k, k / stable, stable);
     }
     if (k > on->bounds->max_stiffness) {
-        (void)knurl_format(sentence, sizeof sentence,
-                           "stiffness %.4g N/m is %.2g times the %.4g N/m that the device is made for", k,
-                           k / on->bounds->max_stiffness, on->bounds->max_stiffness);
-        say(on, KNURL_LIMIT_STIFFNESS, sentence, "lower it, or clamp");
+        say(on, KNURL_LIMIT_STIFFNESS, "lower it, or clamp",
+            "stiffness %.4g N/m is %.2g times the %.4g N/m that the device is made for", k,
+            k / on->bounds->max_stiffness, on->bounds->max_stiffness);
     }
 }
 
 static void check_texture(const inspection *on, double stiffness) {
-    char sentence[256];
     const double rms = stiffness * on->material->amplitude;
     const double swing = rms * knurl_methods[on->material->method].swing;
     const double *fs = on->material->spatial_frequency;
@@ -62,22 +63,18 @@ static void check_texture(const inspection *on, double stiffness) {
     char advice[64];
     (void)knurl_format(advice, sizeof advice, "lower it to %.3g m, or clamp", on->check->amplitude_limit);
     if (swing > on->bounds->max_force) {
-        (void)knurl_format(sentence, sizeof sentence,
-                           "amplitude %.4g m swings the force by %.3g N, %.2g times the device's %.3g N",
-                           on->material->amplitude, swing, swing / on->bounds->max_force, on->bounds->max_force);
-        say(on, KNURL_LIMIT_AMPLITUDE, sentence, advice);
+        say(on, KNURL_LIMIT_AMPLITUDE, advice,
+            "amplitude %.4g m swings the force by %.3g N, %.2g times the device's %.3g N", on->material->amplitude,
+            swing, swing / on->bounds->max_force, on->bounds->max_force);
     }
     if (rms > on->bounds->continuous_force) {
-        (void)knurl_format(
-            sentence, sizeof sentence, "amplitude %.4g m is %.3g N rms, %.2g times the %.3g N that its motors can hold",
-            on->material->amplitude, rms, rms / on->bounds->continuous_force, on->bounds->continuous_force);
-        say(on, KNURL_LIMIT_HEAT, sentence, advice);
+        say(on, KNURL_LIMIT_HEAT, advice,
+            "amplitude %.4g m is %.3g N rms, %.2g times the %.3g N that its motors can hold", on->material->amplitude,
+            rms, rms / on->bounds->continuous_force, on->bounds->continuous_force);
     }
     if (period < 2.0 * on->bounds->quantum) {
-        (void)knurl_format(sentence, sizeof sentence,
-                           "ridges %.3g m apart are finer than the %.3g m of two position steps", period,
-                           2.0 * on->bounds->quantum);
-        say(on, KNURL_LIMIT_PERIOD, sentence, "lower spatial_frequency");
+        say(on, KNURL_LIMIT_PERIOD, "lower spatial_frequency",
+            "ridges %.3g m apart are finer than the %.3g m of two position steps", period, 2.0 * on->bounds->quantum);
     }
 }
 
@@ -91,8 +88,8 @@ static void check_stretch(const inspection *on, const knurl_surface_data *surfac
         return;
     }
     if (strstr(surface->shape.coordinates, "no area")) {
-        say(on, KNURL_LIMIT_STRETCH, "its uvs have no area, as a palette's, so ridges are projected along its axes",
-            "unwrap it, give it an axis, or ask for box coordinates");
+        say(on, KNURL_LIMIT_STRETCH, "unwrap it, give it an axis, or ask for box coordinates",
+            "its uvs have no area, as a palette's, so ridges are projected along its axes");
     }
     if (surface->shape.is_projected) {
         return;
@@ -102,14 +99,11 @@ static void check_stretch(const inspection *on, const knurl_surface_data *surfac
         const double *tagged = m->spatial_frequency;
         const double fs = m->orientation == 0.0 ? tagged[i] : fmax(tagged[0], tagged[1]); /* rotated, both may apply */
         const double *stretch = facts.stretch[i];
-        char sentence[256];
         if (fs > 0.0 && (stretch[2] > KNURL_STRETCH_MAX || stretch[0] * KNURL_STRETCH_MAX < 1.0)) {
-            (void)knurl_format(
-                sentence, sizeof sentence,
+            say(on, KNURL_LIMIT_STRETCH, "unwrap it evenly, give it an axis or box coordinates, or use S2",
                 "its uvs stretch: the %.4g/m along %c are felt as %.4g to %.4g/m, more than an octave off on "
                 "%.2g %% of its area",
                 fs, "uv"[i], stretch[0] * fs, stretch[2] * fs, 100.0 * facts.uneven);
-            say(on, KNURL_LIMIT_STRETCH, sentence, "unwrap it evenly, give it an axis or box coordinates, or use S2");
         }
     }
 }
@@ -119,28 +113,24 @@ static void check_place(const inspection *on, const knurl_surface_data *surface)
     double low[3];
     double high[3];
     double farthest = 0.0;
-    char sentence[256];
     knurl_surface_bounds(surface, &surface->record->motion, HUGE_VAL, low, high);
     for (int i = 0; i < 3; i++) {
         farthest = fmax(farthest, fmax(fabs(low[i]), fabs(high[i])));
     }
     if (!(farthest <= KNURL_FAR)) {
-        (void)knurl_format(sentence, sizeof sentence,
-                           "it reaches %.3g m from the origin, where float32 leaves %.2g m between positions", farthest,
-                           farthest * 0x1p-24);
-        say(on, KNURL_LIMIT_FAR, sentence, "look for a stray vertex, or a unit other than metres");
+        say(on, KNURL_LIMIT_FAR, "look for a stray vertex, or a unit other than metres",
+            "it reaches %.3g m from the origin, where float32 leaves %.2g m between positions", farthest,
+            farthest * 0x1p-24);
     }
 }
 
 /* Crests that reach farther than a mesh is wide, or stacks of overlapping triangles. */
 static void check_visits(const inspection *on, const knurl_surface_data *surface, uint32_t max_visits) {
     if (knurl_shape_exceeds_visits(&surface->shape, surface->record->reach, max_visits)) {
-        char sentence[256];
-        (void)knurl_format(sentence, sizeof sentence,
-                           "in places contact looks at more than the %u triangles and nodes that a tick has time for",
-                           (unsigned)max_visits);
-        say(on, KNURL_LIMIT_VISITS, sentence,
-            "use fewer triangles, remove those that lie over one another, or lower the crests below the mesh's width");
+        say(on, KNURL_LIMIT_VISITS,
+            "use fewer triangles, remove those that lie over one another, or lower the crests below the mesh's width",
+            "in places contact looks at more than the %u triangles and nodes that a tick has time for",
+            (unsigned)max_visits);
     }
 }
 
@@ -187,46 +177,38 @@ static void check_crowd(const inspection *on, const knurl_scene *scene, const kn
     knurl_contact anchor;
     knurl_pose pose;
     double point[3];
-    char sentence[256];
     knurl_motion_at(&surface->record->motion, knurl_scene_time(scene), &pose);
     knurl_shape_anchor(&surface->shape, pose.rotation, &anchor);
     knurl_pose_to_parent(&pose, anchor.proxy, point);
     const uint32_t count = surface->shape.plane ? 0 : count_meshes_near(scene, point);
     if (count >= CROWD) {
-        (void)knurl_format(
-            sentence, sizeof sentence,
+        say(on, KNURL_LIMIT_VISITS, "join them to one mesh, or move them apart",
             "%u meshes come within 1 mm of [%.4g, %.4g, %.4g], more than a tick has time for if the hand moves fast "
             "there",
             (unsigned)count, point[0], point[1], point[2]);
-        say(on, KNURL_LIMIT_VISITS, sentence, "join them to one mesh, or move them apart");
     }
 }
 
 /* Triangles that share an edge and face opposite ways. */
 static void check_winding(const inspection *on, const knurl_surface_data *surface) {
-    char sentence[256];
     knurl_shape_facts facts;
     knurl_shape_get_facts(&surface->shape, &facts);
     if (facts.reversed_twins > 0 && facts.reversed_twins < facts.triangle_count) {
-        (void)knurl_format(sentence, sizeof sentence, "%u of its %u triangles have a reversed twin, %s",
-                           (unsigned)facts.reversed_twins, (unsigned)facts.triangle_count,
-                           surface->double_sided ? "so all of it is felt from both sides" : "which was left out");
-        say(on, KNURL_LIMIT_WINDING, sentence, "merge or delete the doubled faces in the editor");
+        say(on, KNURL_LIMIT_WINDING, "merge or delete the doubled faces in the editor",
+            "%u of its %u triangles have a reversed twin, %s", (unsigned)facts.reversed_twins,
+            (unsigned)facts.triangle_count,
+            surface->double_sided ? "so all of it is felt from both sides" : "which was left out");
     }
     if (facts.turned > 0) {
-        (void)knurl_format(sentence, sizeof sentence,
-                           "%u of its %u triangles were wound against their neighbours, and were turned over",
-                           (unsigned)facts.turned, (unsigned)facts.triangle_count);
-        say(on, KNURL_LIMIT_WINDING, sentence, "recalculate the normals in the editor");
+        say(on, KNURL_LIMIT_WINDING, "recalculate the normals in the editor",
+            "%u of its %u triangles were wound against their neighbours, and were turned over", (unsigned)facts.turned,
+            (unsigned)facts.triangle_count);
     }
     if (facts.mixed > 0 && !surface->double_sided) {
-        (void)knurl_format(
-            sentence, sizeof sentence,
+        say(on, KNURL_LIMIT_WINDING, "recalculate the normals in the editor, or make each part a mesh of its own",
             "%u of its %u triangles are wound against their neighbours, and may let the HIP through: too many "
             "triangles touch there to find the right side",
             (unsigned)facts.mixed, (unsigned)facts.triangle_count);
-        say(on, KNURL_LIMIT_WINDING, sentence,
-            "recalculate the normals in the editor, or make each part a mesh of its own");
     }
 }
 
@@ -281,18 +263,15 @@ knurl_result knurl_scene_check_surface(const knurl_scene *scene, uint32_t hip, k
         return KNURL_ERROR_ARGUMENT;
     }
     knurl_surface_check made;
-    if (hip >= scene->hip_count) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "hip: expected below %u (hip_count), found %u",
-                          (unsigned)scene->hip_count, (unsigned)hip);
+    knurl_surface_data *data;
+    knurl_result result = knurl_scene_check_hip(scene, hip);
+    result = result ? result : knurl_scene_lock_surface(scene, surface, &data);
+    if (result) {
+        return result;
     }
-    knurl_scene_lock(scene);
-    const knurl_surface_data *data = knurl_surfaces_get(&scene->surfaces, surface);
-    if (data) {
-        inspect(scene, &scene->hips[hip], data, &made);
-    }
+    inspect(scene, &scene->hips[hip], data, &made);
     knurl_scene_unlock(scene);
-    const knurl_result result =
-        data ? knurl_desc_return("knurl_surface_check", &made, sizeof made, check) : KNURL_ERROR_STALE_ID;
+    result = knurl_desc_return("knurl_surface_check", &made, sizeof made, check);
     if (!result) {
         knurl_desc_end_text(check, offsetof(knurl_surface_check, message),
                             offsetof(knurl_surface_check, message) + sizeof check->message);

@@ -85,82 +85,75 @@ knurl_result knurl_scene_replace_surface(knurl_scene *scene, knurl_surface_id su
 }
 
 knurl_result knurl_scene_remove_surface(knurl_scene *scene, knurl_surface_id surface) {
-    if (KNURL_BAD_HANDLE(scene, SCENE)) {
-        return KNURL_ERROR_ARGUMENT;
-    }
-    knurl_scene_lock(scene);
-    knurl_surface_data *data = knurl_surfaces_get(&scene->surfaces, surface);
-    if (data) {
+    knurl_surface_data *data;
+    const knurl_result result = knurl_scene_lock_surface(scene, surface, &data);
+    if (!result) {
         knurl_surfaces_remove(&scene->surfaces, data);
         knurl_broad_phase_remove(&scene->broad_phase, data);
+        knurl_scene_unlock(scene);
     }
-    knurl_scene_unlock(scene);
-    return data ? KNURL_OK : KNURL_ERROR_STALE_ID;
+    return result;
 }
 
-static knurl_result set_material(knurl_scene *scene, knurl_surface_id surface, const knurl_material_desc *material) {
-    knurl_surface_data *data = knurl_surfaces_get(&scene->surfaces, surface);
-    if (!data) {
-        return KNURL_ERROR_STALE_ID;
-    }
-    knurl_record *record = knurl_record_copy(&scene->heap, data->record);
+static knurl_result set_material(knurl_scene *scene, knurl_surface_data *surface, const knurl_material_desc *material) {
+    knurl_record *record = knurl_record_copy(&scene->heap, surface->record);
     if (!record) {
         return KNURL_ERROR_MEMORY;
     }
-    const knurl_result result = knurl_record_set_material(record, &data->shape, material, scene->full_model);
+    const knurl_result result = knurl_record_set_material(record, &surface->shape, material, scene->full_model);
     if (result) {
         knurl_heap_free(&scene->heap, record);
         return result;
     }
-    knurl_broad_phase_publish(&scene->broad_phase, data, record, knurl_scene_time(scene));
+    knurl_broad_phase_publish(&scene->broad_phase, surface, record, knurl_scene_time(scene));
     return KNURL_OK;
 }
 
 knurl_result knurl_scene_set_material(knurl_scene *scene, knurl_surface_id surface,
                                       const knurl_material_desc *material) {
-    if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(material)) {
+    if (KNURL_IS_NULL(material)) {
         return KNURL_ERROR_ARGUMENT;
     }
-    knurl_scene_lock(scene);
-    const knurl_result result = set_material(scene, surface, material);
-    knurl_scene_unlock(scene);
+    knurl_surface_data *data;
+    knurl_result result = knurl_scene_lock_surface(scene, surface, &data);
+    if (!result) {
+        result = set_material(scene, data, material);
+        knurl_scene_unlock(scene);
+    }
     return result;
 }
 
-static knurl_result set_transform(knurl_scene *scene, knurl_surface_id surface, const knurl_pose *pose,
+static knurl_result set_transform(knurl_scene *scene, knurl_surface_data *surface, const knurl_pose *pose,
                                   double seconds) {
-    knurl_surface_data *data = knurl_surfaces_get(&scene->surfaces, surface);
-    if (!data) {
-        return KNURL_ERROR_STALE_ID;
-    }
-    knurl_record *record = knurl_record_copy(&scene->heap, data->record);
+    knurl_record *record = knurl_record_copy(&scene->heap, surface->record);
     if (!record) {
         return KNURL_ERROR_MEMORY;
     }
     if (scene->committed) {
-        knurl_motion_go(&record->motion, pose, &data->local, knurl_scene_time(scene), seconds);
-        data->moved = 1;
+        knurl_motion_go(&record->motion, pose, &surface->local, knurl_scene_time(scene), seconds);
+        surface->moved = 1;
         scene->broad_phase.moves++;
     } else {
-        knurl_motion_place(pose, &data->local, &record->motion);
+        knurl_motion_place(pose, &surface->local, &record->motion);
     }
-    knurl_broad_phase_publish(&scene->broad_phase, data, record, knurl_scene_time(scene));
+    knurl_broad_phase_publish(&scene->broad_phase, surface, record, knurl_scene_time(scene));
     return KNURL_OK;
 }
 
 knurl_result knurl_scene_set_transform(knurl_scene *scene, knurl_surface_id surface, const double position[3],
                                        const double rotation[4], double seconds) {
-    if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(position) || KNURL_IS_NULL(rotation)) {
+    if (KNURL_IS_NULL(position) || KNURL_IS_NULL(rotation)) {
         return KNURL_ERROR_ARGUMENT;
     }
     knurl_pose pose;
+    knurl_surface_data *data;
     knurl_result result = knurl_surface_check_pose(position, rotation, &pose);
     if (!result && !knurl_is_within(seconds, 0.0, 10.0)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "seconds: expected 0 to 10 s, found %g", seconds);
     }
+    result = result ? result : knurl_scene_lock_surface(scene, surface, &data);
     if (!result) {
-        knurl_scene_lock(scene);
-        result = set_transform(scene, surface, &pose, seconds);
+        result = set_transform(scene, data, &pose, seconds);
         knurl_scene_unlock(scene);
     }
     return result;

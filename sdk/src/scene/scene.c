@@ -121,10 +121,18 @@ void knurl_scene_release_hip(knurl_scene *scene, uint32_t hip) {
     }
 }
 
-knurl_result knurl_scene_claim_hip(knurl_scene *scene, uint32_t hip) {
+knurl_result knurl_scene_check_hip(const knurl_scene *scene, uint32_t hip) {
     if (hip >= scene->hip_count) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "hip: expected below %u (hip_count), found %u",
                           (unsigned)scene->hip_count, (unsigned)hip);
+    }
+    return KNURL_OK;
+}
+
+knurl_result knurl_scene_claim_hip(knurl_scene *scene, uint32_t hip) {
+    const knurl_result result = knurl_scene_check_hip(scene, hip);
+    if (result) {
+        return result;
     }
     uint32_t use = knurl_load_relaxed(&scene->use);
     do {
@@ -147,6 +155,19 @@ void knurl_scene_lock(const knurl_scene *scene) {
 
 void knurl_scene_unlock(const knurl_scene *scene) {
     knurl_system_mutex_unlock(scene->lock);
+}
+
+knurl_result knurl_scene_lock_surface(const knurl_scene *scene, knurl_surface_id id, knurl_surface_data **surface) {
+    if (KNURL_BAD_HANDLE(scene, SCENE)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
+    knurl_scene_lock(scene);
+    *surface = knurl_surfaces_get(&scene->surfaces, id);
+    if (!*surface) {
+        knurl_scene_unlock(scene);
+        return KNURL_ERROR_STALE_ID;
+    }
+    return KNURL_OK;
 }
 
 void knurl_scene_centre(const knurl_scene *scene, double centre[3]) {
@@ -254,16 +275,16 @@ knurl_result knurl_scene_find_surface(const knurl_scene *scene, const char *name
 }
 
 knurl_result knurl_scene_get_surface_name(const knurl_scene *scene, knurl_surface_id surface, const char **name) {
-    if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(name)) {
+    if (KNURL_IS_NULL(name)) {
         return KNURL_ERROR_ARGUMENT;
     }
-    knurl_scene_lock(scene);
-    const knurl_surface_data *data = knurl_surfaces_get(&scene->surfaces, surface);
-    if (data) {
+    knurl_surface_data *data;
+    const knurl_result result = knurl_scene_lock_surface(scene, surface, &data);
+    if (!result) {
         *name = data->name;
+        knurl_scene_unlock(scene);
     }
-    knurl_scene_unlock(scene);
-    return data ? KNURL_OK : KNURL_ERROR_STALE_ID;
+    return result;
 }
 
 uint64_t knurl_scene_get_bytes(const knurl_scene *scene) {

@@ -33,11 +33,18 @@ struct knurl_scene {
 void knurl_scene_lock(const knurl_scene *scene);
 void knurl_scene_unlock(const knurl_scene *scene);
 
+/* Locks a scene and finds one of its surfaces; after an error it is not locked. Errors: KNURL_ERROR_ARGUMENT (scene),
+ * KNURL_ERROR_STALE_ID. */
+knurl_result knurl_scene_lock_surface(const knurl_scene *scene, knurl_surface_id id, knurl_surface_data **surface);
+
 /* s: the time of the HIP that is ahead. */
 double knurl_scene_time(const knurl_scene *scene);
 
 /* The centre of all surfaces' bounds; 0 in an empty scene. */
 void knurl_scene_centre(const knurl_scene *scene, double centre[3]);
+
+/* Checks that the scene has a HIP. Errors: KNURL_ERROR_ARGUMENT. */
+knurl_result knurl_scene_check_hip(const knurl_scene *scene, uint32_t hip);
 
 /* Claims a HIP for one loop and keeps the scene alive for it. Errors: KNURL_ERROR_ARGUMENT (hip), KNURL_ERROR_STATE
  * (another loop's, or the scene was destroyed). [any thread] */
@@ -58,7 +65,7 @@ void knurl_hip_tick(knurl_scene *scene, knurl_hip *hip, const knurl_tick_input *
 knurl_result knurl_scene_adopt_device(knurl_scene *scene, uint32_t hip, const knurl_hip_facts *facts);
 
 /* Publishes a force (N) that the loop sent at its end without a tick, as if it were the last tick's. On the HIP's
- * haptic thread, or after its end (motors.c). */
+ * haptic thread, or after its end. */
 void knurl_scene_publish_force(knurl_scene *scene, uint32_t hip, const double force[3],
                                const double device_force[3]) KNURL_NONBLOCKING;
 

@@ -5,14 +5,6 @@
 #include "base/atomic.h"
 #include "base/base.h"
 
-static knurl_result check_hip(const knurl_scene *scene, uint32_t hip) {
-    if (hip >= scene->hip_count) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "hip: expected below %u (hip_count), found %u",
-                          (unsigned)scene->hip_count, (unsigned)hip);
-    }
-    return KNURL_OK;
-}
-
 /* Under the lock, because editing threads read the HIPs' times. */
 static knurl_result set_up(knurl_scene *scene, knurl_hip *hip, const knurl_hip_desc *d, const knurl_hip_facts *device,
                            double strongest) {
@@ -43,7 +35,7 @@ knurl_result knurl_scene_configure_hip(knurl_scene *scene, uint32_t hip, const k
     }
     knurl_hip_desc d;
     knurl_hip_desc_init(&d, sizeof d);
-    knurl_result result = check_hip(scene, hip);
+    knurl_result result = knurl_scene_check_hip(scene, hip);
     result = result || !desc ? result : knurl_desc_read("knurl_hip_desc", desc, &d, sizeof d);
     if (!result) {
         knurl_scene_lock(scene); /* a loop that claims the HIP meanwhile sets it up after this */
@@ -91,7 +83,7 @@ knurl_result knurl_scene_get_workspace(const knurl_scene *scene, uint32_t hip, k
     if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(workspace)) {
         return KNURL_ERROR_ARGUMENT;
     }
-    knurl_result result = check_hip(scene, hip);
+    knurl_result result = knurl_scene_check_hip(scene, hip);
     if (result) {
         return result;
     }
@@ -110,7 +102,7 @@ knurl_result knurl_scene_set_workspace(knurl_scene *scene, uint32_t hip, const k
     if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(workspace)) {
         return KNURL_ERROR_ARGUMENT;
     }
-    knurl_result result = check_hip(scene, hip);
+    knurl_result result = knurl_scene_check_hip(scene, hip);
     result = result ? result : knurl_workspace_check(workspace);
     if (!result && !knurl_is_within(seconds, 0.0, 10.0)) {
         result = knurl_fail(KNURL_ERROR_ARGUMENT, "seconds: expected 0 to 10, found %g", seconds);
@@ -135,7 +127,7 @@ knurl_result knurl_scene_get_tick(const knurl_scene *scene, uint32_t hip, knurl_
     if (KNURL_BAD_HANDLE(scene, SCENE)) {
         return KNURL_ERROR_ARGUMENT;
     }
-    const knurl_result result = check_hip(scene, hip);
+    const knurl_result result = knurl_scene_check_hip(scene, hip);
     if (!result) {
         knurl_snapshot snapshot;
         knurl_snapshot_read(&scene->hips[hip].published, &snapshot);
@@ -147,4 +139,15 @@ knurl_result knurl_scene_get_tick(const knurl_scene *scene, uint32_t hip, knurl_
         }
     }
     return result;
+}
+
+void knurl_scene_publish_force(knurl_scene *scene, uint32_t hip, const double force[3], const double device_force[3]) {
+    knurl_hip *h = &scene->hips[hip];
+    knurl_snapshot latest;
+    knurl_snapshot_read(&h->published, &latest); /* this thread is the only writer */
+    knurl_last_stage_note(&h->last, device_force);
+    h->counts.heat = knurl_heat_theta(&h->last.heat);
+    vec3_copy(force, latest.output.force);
+    vec3_copy(device_force, latest.output.device_force);
+    knurl_snapshot_publish(&h->published, &latest.output, &h->counts);
 }

@@ -83,30 +83,31 @@ static void describe(const knurl_scene *scene, const knurl_surface_data *surface
 
 knurl_result knurl_scene_get_surface_info(const knurl_scene *scene, knurl_surface_id surface,
                                           knurl_surface_info *info) {
-    if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(info)) {
+    if (KNURL_IS_NULL(info)) {
         return KNURL_ERROR_ARGUMENT;
     }
     knurl_surface_info made;
-    knurl_scene_lock(scene);
-    const knurl_surface_data *data = knurl_surfaces_get(&scene->surfaces, surface);
-    if (data) {
-        describe(scene, data, &made);
+    knurl_surface_data *data;
+    const knurl_result result = knurl_scene_lock_surface(scene, surface, &data);
+    if (result) {
+        return result;
     }
+    describe(scene, data, &made);
     knurl_scene_unlock(scene);
-    return data ? knurl_desc_return("knurl_surface_info", &made, sizeof made, info) : KNURL_ERROR_STALE_ID;
+    return knurl_desc_return("knurl_surface_info", &made, sizeof made, info);
 }
 
 knurl_result knurl_scene_get_material(const knurl_scene *scene, knurl_surface_id surface,
                                       knurl_material_desc *material) {
-    if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(material)) {
+    if (KNURL_IS_NULL(material)) {
         return KNURL_ERROR_ARGUMENT;
     }
-    knurl_material_desc found;
-    knurl_scene_lock(scene);
-    const knurl_surface_data *data = knurl_surfaces_get(&scene->surfaces, surface);
-    if (data) {
-        found = data->record->material;
+    knurl_surface_data *data;
+    const knurl_result result = knurl_scene_lock_surface(scene, surface, &data);
+    if (result) {
+        return result;
     }
+    const knurl_material_desc found = data->record->material;
     knurl_scene_unlock(scene);
-    return data ? knurl_desc_return("knurl_material_desc", &found, sizeof found, material) : KNURL_ERROR_STALE_ID;
+    return knurl_desc_return("knurl_material_desc", &found, sizeof found, material);
 }

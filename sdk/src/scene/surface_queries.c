@@ -22,22 +22,19 @@ static void find_pose(const knurl_scene *scene, const knurl_surface_data *surfac
 
 knurl_result knurl_scene_get_transform(const knurl_scene *scene, knurl_surface_id surface, double position[3],
                                        double rotation[4]) {
-    if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(position) || KNURL_IS_NULL(rotation)) {
+    if (KNURL_IS_NULL(position) || KNURL_IS_NULL(rotation)) {
         return KNURL_ERROR_ARGUMENT;
     }
     knurl_pose pose;
-    knurl_scene_lock(scene);
-    const knurl_surface_data *data = knurl_surfaces_get(&scene->surfaces, surface);
-    if (data) {
+    knurl_surface_data *data;
+    const knurl_result result = knurl_scene_lock_surface(scene, surface, &data);
+    if (!result) {
         find_pose(scene, data, &pose);
+        knurl_scene_unlock(scene);
+        vec3_copy(pose.position, position);
+        quat_from_matrix(pose.rotation, rotation);
     }
-    knurl_scene_unlock(scene);
-    if (!data) {
-        return KNURL_ERROR_STALE_ID;
-    }
-    vec3_copy(pose.position, position);
-    quat_from_matrix(pose.rotation, rotation);
-    return KNURL_OK;
+    return result;
 }
 
 uint32_t knurl_scene_has_surface(const knurl_scene *scene, knurl_surface_id surface) {
@@ -51,29 +48,26 @@ uint32_t knurl_scene_has_surface(const knurl_scene *scene, knurl_surface_id surf
 }
 
 knurl_result knurl_scene_set_user_data(knurl_scene *scene, knurl_surface_id surface, void *user_data) {
-    if (KNURL_BAD_HANDLE(scene, SCENE)) {
-        return KNURL_ERROR_ARGUMENT;
-    }
-    knurl_scene_lock(scene);
-    knurl_surface_data *data = knurl_surfaces_get(&scene->surfaces, surface);
-    if (data) {
+    knurl_surface_data *data;
+    const knurl_result result = knurl_scene_lock_surface(scene, surface, &data);
+    if (!result) {
         data->user_data = user_data;
+        knurl_scene_unlock(scene);
     }
-    knurl_scene_unlock(scene);
-    return data ? KNURL_OK : KNURL_ERROR_STALE_ID;
+    return result;
 }
 
 knurl_result knurl_scene_get_user_data(const knurl_scene *scene, knurl_surface_id surface, void **user_data) {
-    if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(user_data)) {
+    if (KNURL_IS_NULL(user_data)) {
         return KNURL_ERROR_ARGUMENT;
     }
-    knurl_scene_lock(scene);
-    const knurl_surface_data *data = knurl_surfaces_get(&scene->surfaces, surface);
-    if (data) {
+    knurl_surface_data *data;
+    const knurl_result result = knurl_scene_lock_surface(scene, surface, &data);
+    if (!result) {
         *user_data = data->user_data;
+        knurl_scene_unlock(scene);
     }
-    knurl_scene_unlock(scene);
-    return data ? KNURL_OK : KNURL_ERROR_STALE_ID;
+    return result;
 }
 
 void knurl_surface_point_init(knurl_surface_point *point, uint32_t size) {

@@ -2,8 +2,8 @@
  * Ranges are those of device.h's comments. SPDX-License-Identifier: MIT */
 #include "support/double.h"
 #include "support/fake.h"
+#include "support/idle_device.h"
 
-#include <knurl/device_functions.h>
 #include <knurl/hip.h>
 #include <knurl/loop.h>
 #include <knurl/query.h>
@@ -46,24 +46,9 @@ static void tell(void *user, knurl_device_info *info) {
     }
 }
 
-static knurl_result read_nothing(void *user, knurl_device_sample *sample) {
-    (void)user;
-    (void)sample;
-    return KNURL_OK;
-}
-
-static knurl_result write_nothing(void *user, const double force[3]) {
-    (void)user;
-    (void)force;
-    return KNURL_OK;
-}
-
 static knurl_result open_told(knurl_device **device) {
-    knurl_device_functions f;
-    knurl_device_functions_init(&f, sizeof f);
+    knurl_device_functions f = idle_functions();
     f.get_info = tell;
-    f.read = read_nothing;
-    f.write = write_nothing;
     return knurl_device_open_functions(&f, device);
 }
 
