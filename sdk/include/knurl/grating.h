@@ -11,7 +11,7 @@ extern "C" {
 #endif
 
 /** The spatial methods.
- * - S1: the height at the position (Eqs. 10, 11).
+ * - S1: the height at the position (Eq. 11).
  * - S2: complete T3 events at the frequency given by the velocity (Algorithm 7).
  * - BANDLIMITED, the default: those of the square wave's harmonics that the update rate can represent, at the phase of
  *   the position. */
@@ -71,16 +71,6 @@ KNURL_API knurl_result knurl_grating_check(knurl_grating *grating);
 /** The temporal frequency of a motion, Eqs. 12 and 13 without trigonometry: max(fsx |vx|, fsy |vy|), in Hz.
  * spatial_frequency: cycles/m along x and y. velocity: m/s along x and y. [any thread; allowed in a tick] */
 KNURL_API double knurl_grating_frequency(const double spatial_frequency[2], const double velocity[2]) KNURL_NONBLOCKING;
-
-/** S1 in 2D, Eq. 10: +amplitude if the fractional phase of position x spatial_frequency is below one half, else
- * -amplitude. position: m. spatial_frequency: cycles/m. amplitude: m. [any thread; allowed in a tick] */
-KNURL_API double knurl_grating_s1_line(double position, double spatial_frequency, double amplitude) KNURL_NONBLOCKING;
-
-/** S1 in 3D, Eq. 11: the sign of a product of cosines, decided on fractional phases: a checkerboard, or bars if one
- * frequency is 0. position: m along x and y. spatial_frequency: cycles/m along x and y. amplitude: m. [any thread;
- * allowed in a tick] */
-KNURL_API double knurl_grating_s1(const double position[2], const double spatial_frequency[2],
-                                  double amplitude) KNURL_NONBLOCKING;
 
 /** Runs one tick of a checked grating.
  *

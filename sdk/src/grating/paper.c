@@ -1,32 +1,18 @@
-/* The paper's methods: S1 (Eqs. 10, 11) and S2 (Algorithm 7 with Eqs. 12, 13). SPDX-License-Identifier: MIT */
+/* The paper's methods: S1 (Eq. 11) and S2 (Algorithm 7 with Eqs. 12, 13). SPDX-License-Identifier: MIT */
 #include "grating/paper.h"
 
 #include "grating/phase.h"
 #include "grating/play.h"
 #include "vibration/ticks.h"
 
-double knurl_grating_s1_line(double position, double spatial_frequency, double amplitude) {
-    return knurl_first_half(position * spatial_frequency) ? amplitude : -amplitude;
-}
-
-/* cos(2 pi p) is positive while p + 1/4 is in the first half of its cycle. */
-static double s1(double x, double y, const double spatial_frequency[2], double amplitude) {
-    const int along_x = knurl_first_half(x * spatial_frequency[0] + 0.25);
-    const int along_y = knurl_first_half(y * spatial_frequency[1] + 0.25);
-    return along_x == along_y ? amplitude : -amplitude;
-}
-
-double knurl_grating_s1(const double position[2], const double spatial_frequency[2], double amplitude) {
-    if (!position || !spatial_frequency) {
-        return 0.0;
-    }
-    return s1(position[0], position[1], spatial_frequency, amplitude);
-}
-
+/* Eq. 11, decided on fractional phases: cos(2 pi p) is positive while p + 1/4 is in the first half of its cycle. A
+ * checkerboard, or bars if one frequency is 0. */
 double knurl_s1_height(const knurl_grating *grating, knurl_grating_state *state, knurl_along position,
                        knurl_along velocity, double period, int32_t has_position, knurl_grating_output *output) {
     (void)state, (void)velocity, (void)period, (void)has_position, (void)output;
-    return s1(position.x, position.y, grating->spatial_frequency, grating->amplitude);
+    const int along_x = knurl_first_half(position.x * grating->spatial_frequency[0] + 0.25);
+    const int along_y = knurl_first_half(position.y * grating->spatial_frequency[1] + 0.25);
+    return along_x == along_y ? grating->amplitude : -grating->amplitude;
 }
 
 /* Algorithm 7 as the paper means it: the event keeps its kind and amplitude to its end. */

@@ -70,3 +70,17 @@ int knurl_candidate_is_swept_near(knurl_candidate *candidate, const knurl_surfac
     candidate->swept_tick = clock->tick;
     return near;
 }
+
+void knurl_candidate_end_contact(knurl_candidate *candidate) {
+    candidate->in_contact = 0;
+    memset(&candidate->contact, 0, sizeof candidate->contact);
+    knurl_wall_end(&candidate->guard);
+}
+
+void knurl_candidate_note_change(knurl_candidate *candidate, const knurl_surface_data *surface) {
+    if (!surface || candidate->in_contact) {
+        knurl_candidate_end_contact(candidate);
+    }
+    candidate->generation = surface ? surface->generation : candidate->generation;
+    candidate->has_previous = 0;
+}

@@ -101,4 +101,10 @@ int knurl_candidate_is_swept_near(knurl_candidate *candidate, const knurl_surfac
                                   const knurl_hip_clock *clock, const knurl_hip_path *path,
                                   double margin) KNURL_NONBLOCKING;
 
+/* Ends its contact, if there is one. */
+void knurl_candidate_end_contact(knurl_candidate *candidate) KNURL_NONBLOCKING;
+
+/* Slow path of knurl_candidate_surface(): another surface, or none, is in its place. */
+void knurl_candidate_note_change(knurl_candidate *candidate, const knurl_surface_data *surface) KNURL_NONBLOCKING;
+
 #endif

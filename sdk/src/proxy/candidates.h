@@ -39,6 +39,17 @@ static inline knurl_candidate *knurl_candidates_at(knurl_candidates *c, uint32_t
     return &c->slots[c->order[i]];
 }
 
+/* The candidate's surface, or null if it was removed. If another surface has taken its place, the contact ends. */
+static inline const knurl_surface_data *knurl_candidate_surface(const knurl_broad_index *index,
+                                                                knurl_candidate *candidate) {
+    const knurl_surface_data *surface =
+        candidate->place < index->capacity ? __atomic_load_n(&index->items[candidate->place], __ATOMIC_SEQ_CST) : NULL;
+    if (KNURL_UNLIKELY(!surface || candidate->generation != surface->generation)) {
+        knurl_candidate_note_change(candidate, surface);
+    }
+    return surface;
+}
+
 /* Empties the list. */
 void knurl_candidates_reset(knurl_candidates *candidates) KNURL_NONBLOCKING;
 

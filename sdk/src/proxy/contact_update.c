@@ -36,7 +36,7 @@ static inline int is_within_view(const knurl_contacts *c, double margin, const d
 static inline int place_alone(knurl_contacts *c, const knurl_broad_index *index, knurl_active_contact *a) {
     knurl_candidate *candidate = a->candidate;
     const knurl_pose *before;
-    a->surface = knurl_contacts_surface(index, candidate);
+    a->surface = knurl_candidate_surface(index, candidate);
     if (KNURL_UNLIKELY(!a->surface)) {
         return 0;
     }
@@ -133,7 +133,7 @@ static int comes_near(const knurl_contacts *c, const knurl_broad_index *index, k
     if (!knurl_candidate_is_near(candidate, path, margin)) {
         return 0;
     }
-    const knurl_surface_data *surface = knurl_contacts_surface(index, candidate);
+    const knurl_surface_data *surface = knurl_candidate_surface(index, candidate);
     return surface && knurl_candidate_is_swept_near(candidate, surface, &c->clock, path, margin);
 }
 

@@ -3,29 +3,15 @@
 
 #include <string.h>
 
-void knurl_contacts_end(knurl_candidate *candidate) {
-    candidate->in_contact = 0;
-    memset(&candidate->contact, 0, sizeof candidate->contact);
-    knurl_wall_end(&candidate->guard);
-}
-
 void knurl_contacts_take_time(knurl_contacts *c, double time) {
     knurl_store_double(&c->clock.time, time);
     c->clock.previous_time = time - c->clock.period;
 }
 
-void knurl_contacts_note_change(knurl_candidate *candidate, const knurl_surface_data *surface) {
-    if (!surface || candidate->in_contact) {
-        knurl_contacts_end(candidate);
-    }
-    candidate->generation = surface ? surface->generation : candidate->generation;
-    candidate->has_previous = 0;
-}
-
 int knurl_contacts_add(knurl_contacts *c, knurl_candidate *candidate, const knurl_surface_data *surface,
                        const knurl_record *record, const knurl_pose *pose, const knurl_touched *touched) {
     if (c->now.count == KNURL_CONTACTS_MAX) {
-        knurl_contacts_end(candidate);
+        knurl_candidate_end_contact(candidate);
         return 0;
     }
     knurl_active_contact *a = &c->now.list[c->now.count++];

@@ -91,28 +91,13 @@ typedef struct knurl_contacts {
     knurl_candidates candidates;
 } knurl_contacts;
 
-/* Slow paths of knurl_contacts_surface() and knurl_contacts_catch_up(). */
-void knurl_contacts_note_change(knurl_candidate *candidate, const knurl_surface_data *surface) KNURL_NONBLOCKING;
+/* Slow path of knurl_contacts_catch_up(). */
 void knurl_contacts_take_time(knurl_contacts *contacts, double time) KNURL_NONBLOCKING;
-
-/* The candidate's surface, or null if it was removed. If another surface has taken its place, the contact ends. */
-static inline const knurl_surface_data *knurl_contacts_surface(const knurl_broad_index *index,
-                                                               knurl_candidate *candidate) {
-    const knurl_surface_data *surface =
-        candidate->place < index->capacity ? __atomic_load_n(&index->items[candidate->place], __ATOMIC_SEQ_CST) : NULL;
-    if (KNURL_UNLIKELY(!surface || candidate->generation != surface->generation)) {
-        knurl_contacts_note_change(candidate, surface);
-    }
-    return surface;
-}
 
 /* 1 for KNURL_SLIP_SECONDS after the HIP has come off a rim. */
 static inline int knurl_contacts_have_slipped(const knurl_contacts *c) {
     return KNURL_UNLIKELY(c->clock.time - c->slip.time < KNURL_SLIP_SECONDS) && c->slip.time >= 0.0;
 }
-
-/* Ends a contact. */
-void knurl_contacts_end(knurl_candidate *candidate) KNURL_NONBLOCKING;
 
 /* Adds a contact to this tick's. pose: of the shape's frame, now. Returns 0 if there is no room; the next tick tests
  * the surface again. */

@@ -83,7 +83,7 @@ static void find_first(knurl_joint_search *m) {
         knurl_joint_query_contact(m, &m->near.list[i], touched);
         if (knurl_obstacle_has_jumped(&m->near.list[i])) { /* its old contact ends */
             knurl_joint_query_jumped(m, &m->near.list[i], touched);
-            knurl_contacts_end(m->near.list[i].candidate);
+            knurl_candidate_end_contact(m->near.list[i].candidate);
         }
         if (!knurl_joint_is_inside(touched)) {
             continue;
@@ -188,7 +188,7 @@ static void update_contacts(knurl_joint_search *m, uint64_t which, uint32_t *fla
             continue;
         }
         if (!m->touched[i].held) {
-            knurl_contacts_end(candidate);
+            knurl_candidate_end_contact(candidate);
         } else if (!knurl_contacts_add(m->contacts, candidate, o->surface, o->record, o->pose, &m->touched[i])) {
             *flags |= KNURL_TICK_CONTACTS_FULL;
         } else {

@@ -27,7 +27,7 @@ void knurl_joint_collect(knurl_joint_search *m, const knurl_hip_path *path, doub
         const knurl_surface_data *surface = NULL;
         knurl_obstacle o;
         if (candidate->in_contact || knurl_candidate_is_near(candidate, path, margin)) {
-            surface = knurl_contacts_surface(m->index, candidate);
+            surface = knurl_candidate_surface(m->index, candidate);
         }
         if (surface) {
             const knurl_record *record = __atomic_load_n(&surface->record, __ATOMIC_SEQ_CST);
