@@ -213,16 +213,13 @@ static void check_winding(const inspection *on, const knurl_surface_data *surfac
 }
 
 static void check_normals(const inspection *on, const knurl_surface_data *surface) {
-    char sentence[256];
     knurl_shape_facts facts;
     knurl_shape_get_facts(&surface->shape, &facts);
     if (facts.bad_normals > 0) {
-        (void)knurl_format(
-            sentence, sizeof sentence,
+        say(on, KNURL_LIMIT_NORMALS, "recalculate the normals in the editor",
             "%u of its %u triangles are felt flat, because their normals are not of unit length, more than "
             "60 degrees off the triangle, or fold the surface",
             (unsigned)facts.bad_normals, (unsigned)facts.triangle_count);
-        say(on, KNURL_LIMIT_NORMALS, sentence, "recalculate the normals in the editor");
     }
 }
 
