@@ -192,7 +192,7 @@ static void update_contacts(knurl_joint_search *m, uint64_t which, uint32_t *fla
         } else if (!knurl_contacts_add(m->contacts, candidate, o->surface, o->record, o->pose, &m->touched[i])) {
             *flags |= KNURL_TICK_CONTACTS_FULL;
         } else {
-            m->contacts->active[m->contacts->active_count - 1].is_sharp = m->sharp >> i & 1;
+            m->contacts->now.list[m->contacts->now.count - 1].is_sharp = m->sharp >> i & 1;
         }
         candidate->is_late = (m->late >> i & 1) != 0 && candidate->has_previous;
         candidate->has_previous = 1;
