@@ -2,8 +2,9 @@
 #ifndef KNURL_SRC_BASE_FORMAT_H
 #define KNURL_SRC_BASE_FORMAT_H
 
-#include <knurl/base.h>
+#include "base/finite.h"
 
+#include <knurl/base.h>
 #include <stdarg.h>
 
 /* As snprintf() and vsnprintf(). */

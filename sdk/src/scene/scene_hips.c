@@ -50,7 +50,7 @@ knurl_result knurl_scene_set_gains(knurl_scene *scene, uint32_t hip, const knurl
     if (KNURL_BAD_HANDLE(scene, SCENE)) {
         return KNURL_ERROR_ARGUMENT;
     }
-    knurl_result result = check_hip(scene, hip);
+    knurl_result result = knurl_scene_check_hip(scene, hip);
     if (!result) {
         knurl_scene_lock(scene);
         result = refuse_in_use(scene, hip);

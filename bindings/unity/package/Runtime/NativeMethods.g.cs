@@ -646,7 +646,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "f279a18b652dce7b";
+        internal const string Interface = "c67d99d8ab184798";
 
         internal const string Version = "0.3.0";
 
@@ -896,13 +896,6 @@ namespace Knurl
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern double knurl_grating_frequency(double* spatial_frequency, double* velocity);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern double knurl_grating_s1_line(double position, double spatial_frequency,
-            double amplitude);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern double knurl_grating_s1(double* position, double* spatial_frequency, double amplitude);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void knurl_grating_step(knurl_grating* grating, knurl_grating_state* state,

@@ -2,6 +2,8 @@
 #ifndef KNURL_SRC_COUNTS_H
 #define KNURL_SRC_COUNTS_H
 
+#include "base/finite.h"
+
 #include <knurl/base.h>
 
 /* The quantum of recorded positions, m; 0 if they are exact, or if it is not certain that they are in counts. rows: t,
