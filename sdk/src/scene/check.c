@@ -139,7 +139,7 @@ static void check_visits(const inspection *on, const knurl_surface_data *surface
 #define CROWD       16
 #define CROWD_REACH 0.001
 
-/* Surfaces near a point, planes included, above which all of the scene are tested. */
+/* Counting ends here: a check of each of thousands of meshes in one place is to end, too. */
 #define CROWD_MAX 64
 
 static uint32_t is_mesh_near(const knurl_surface_data *surface, const double point[3], double now) {
@@ -154,7 +154,7 @@ static uint32_t is_mesh_near(const knurl_surface_data *surface, const double poi
     return (uint32_t)knurl_mesh_closest(surface->shape.geometry, own, CROWD_REACH, NULL, NULL, &nearest);
 }
 
-/* Counts the meshes within CROWD_REACH of a point. */
+/* Counts the meshes within CROWD_REACH of a point, to CROWD_MAX. */
 static uint32_t count_meshes_near(const knurl_scene *scene, const double point[3]) {
     const knurl_broad_index *index = scene->broad_phase.index; /* null before the commit */
     const double now = knurl_scene_time(scene);
@@ -166,7 +166,7 @@ static uint32_t count_meshes_near(const knurl_scene *scene, const double point[3
     for (uint32_t i = 0; i < found && found <= CROWD_MAX; i++) {
         count += is_mesh_near(index->items[places[i]], point, now);
     }
-    for (uint32_t i = 0; i < scene->surfaces.count && found > CROWD_MAX; i++) { /* some of them may be planes */
+    for (uint32_t i = 0; i < scene->surfaces.count && found > CROWD_MAX && count < CROWD_MAX; i++) { /* some are planes */
         count += is_mesh_near(knurl_surfaces_at(&scene->surfaces, i), point, now);
     }
     return count;
