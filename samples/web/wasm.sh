@@ -29,11 +29,11 @@ cd "$root"
 newest=$(find sdk \( -name '*.h*' -o -name '*.cpp' \) -printf '%T@\n' | sort -n | tail -n 1)
 touch -d "@$newest" "$objects/newest"
 touch "$objects/begin"
-# The loader as two files, as sdk/CMakeLists.txt has it.
+# The loader as one file, as sdk/CMakeLists.txt has it.
 loader=$objects/gltf.cpp
-find sdk/src/gltf -name '*.cpp' ! -name model.cpp | sort | sed 's|^sdk/src/\(.*\)|#include "\1"|' >"$loader.new"
+find sdk/src/gltf -name '*.cpp' | sort | sed 's|^sdk/src/\(.*\)|#include "\1"|' >"$loader.new"
 cmp -s "$loader.new" "$loader" || mv "$loader.new" "$loader"
-sources=(sdk/src/{vibration,grating,motion,contact,surface,proxy,guard,hip,scene,audio}/*.c "$loader" sdk/src/gltf/model.cpp sdk/src/base/{error,heap,range}.c
+sources=(sdk/src/{vibration,grating,motion,contact,surface,proxy,guard,hip,scene,audio}/*.c "$loader" sdk/src/base/{error,heap,range}.c
     sdk/src/base/{format,regular_file,system}_posix.c samples/web/web.c)
 # shellcheck disable=SC2016 # the other shell expands it
 printf '%s\n' "${sources[@]}" |
