@@ -63,7 +63,8 @@ static int write_rows(FILE *csv, json_writer *json, void *user) {
     }
     json_string(json, "table", "even.csv");
     fputs("hz,gain,felt_db,felt_even_db\n", csv);
-    for (double hz = 25.3; hz < 480.0; hz *= 1.037) {
+    for (int step = 0; step < 82; step++) { /* 25.3 to 480 Hz */
+        const double hz = 25.3 * pow(1.037, step);
         const double felt = even_felt(hz);
         const double levels[2] = {felt, felt * gain_at(gains, hz)};
         for (int i = 0; i < 2 && hz <= 300.0; i++) {

@@ -50,7 +50,8 @@ static void make_ring(uint32_t n, float *positions, float *normals, uint32_t *in
     const uint32_t tube = n / 2;
     for (uint32_t i = 0; i < n * tube; i++) {
         double point[3], normal[3];
-        ring_at(2.0 * PI * (i / tube) / n, 2.0 * PI * (i % tube) / tube, point, normal);
+        const uint32_t round = i / tube;
+        ring_at(2.0 * PI * round / n, 2.0 * PI * (i % tube) / tube, point, normal);
         for (uint32_t k = 0; k < 3; k++) {
             positions[3 * i + k] = (float)point[k];
             normals[3 * i + k] = (float)normal[k];
@@ -171,7 +172,8 @@ static int write_all(FILE *csv, json_writer *json, void *user) {
     fputs("kind,mm,along,across\n", csv);
     json_string(json, "study", "smooth");
     json_string(json, "table", "smooth.csv");
-    json_number(json, "drawn", 2.0 * rings[SMALLEST] * (rings[SMALLEST] / 2));
+    const uint32_t tube = rings[SMALLEST] / 2;
+    json_number(json, "drawn", 2.0 * rings[SMALLEST] * tube);
     json_open(json, "rows", '[');
     printf(
         "| felt as | triangles | mean angle (degrees) | worst depth | largest step | tick |\n|---|---|---|---|---|---|\n");

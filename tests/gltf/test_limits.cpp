@@ -70,8 +70,7 @@ TEST(surfaces_are_counted_before_they_are_made) {
     primitive.resize(primitive.size() - 2);
     file.meshes = R"({"primitives":[)" + repeated(primitive + ",", 1999) + primitive + "]}";
     file.nodes = repeated(R"({"mesh":0},)", 1999) + R"({"mesh":0})";
-    assert_fails(file.glb(), KNURL_ERROR_FULL,
-                 {"options.max_surfaces: expected at most 65536, found 4000000"});
+    assert_fails(file.glb(), KNURL_ERROR_FULL, {"options.max_surfaces: expected at most 65536, found 4000000"});
     file.nodes = R"({"mesh":0},{"mesh":0},{"mesh":0})"; // beyond this scene's own capacity of 4096
     assert_fails(file.glb(), KNURL_ERROR_FULL, {"node 2, mesh 0, primitive 96: "});
     file.materials = "{}";

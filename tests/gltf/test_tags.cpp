@@ -125,8 +125,7 @@ TEST(wrong_values_name_key_expected_and_found) {
     for (const char *value : {"1", "\"uvs\"", "[\"box\"]", "null"})
         assert_tag_fails(with(R"("coordinates":)" + std::string(value)),
                          {bars, "knurl.coordinates: expected 'auto' or 'box', found "});
-    assert_tag_fails(with(R"("method":"S3")"),
-                     {bars, "knurl.method: expected 'S1', "});
+    assert_tag_fails(with(R"("method":"S3")"), {bars, "knurl.method: expected 'S1', "});
     assert_tag_fails(with(R"("method":2)"), {bars, "knurl.method: expected a string", "found 2"});
 }
 

@@ -67,8 +67,9 @@ KNURL_API knurl_result knurl_fake_get_truth(const knurl_device *device, knurl_fa
 /** Plays recorded positions instead of a simulated hand: rows of t (s, ascending), x, y, z (m, device frame). Copied;
  * interpolated linearly; the last one is held, and no force moves them. Positions that were recorded in an encoder's
  * counts are recognised, also if they were written with few digits, and the device's resolution is that of the counts;
- * otherwise, and if it is not certain, they are exact. A resolution in the URI quantises them (0: they are exact). Errors: KNURL_ERROR_ARGUMENT (which row), KNURL_ERROR_UNSUPPORTED (not a fake device), KNURL_ERROR_STATE
- * (a loop with a haptic thread uses it), KNURL_ERROR_MEMORY. [game thread] */
+ * otherwise, and if it is not certain, they are exact. A resolution in the URI quantises them (0: they are exact).
+ * Errors: KNURL_ERROR_ARGUMENT (which row), KNURL_ERROR_UNSUPPORTED (not a fake device), KNURL_ERROR_STATE (a loop with
+ * a haptic thread uses it), KNURL_ERROR_MEMORY. [game thread] */
 KNURL_API knurl_result knurl_fake_set_trace(knurl_device *device, const double *rows, uint64_t row_count);
 
 /** Finds a stroke by its name ("line", "sweep", "circle", "press", "rest").

@@ -40,8 +40,8 @@ enum {
 #define KNURL_VISITS_MAX 800
 
 /** One haptic interaction point (HIP): its workspace in the scene and the limits of its device. A number that is
- * KNURL_DEFAULT, as knurl_hip_desc_init() sets them all, is that of the loop's device or, without a loop, of a Touch (in
- * brackets). */
+ * KNURL_DEFAULT, as knurl_hip_desc_init() sets them all, is that of the loop's device or, without a loop, of a Touch
+ * (in brackets). */
 typedef struct knurl_hip_desc {
     uint32_t struct_size; /**< set by knurl_hip_desc_init() */
     uint32_t protections; /**< KNURL_PROTECT_ bits; default KNURL_PROTECT_ALL */
@@ -51,16 +51,16 @@ typedef struct knurl_hip_desc {
     const knurl_workspace *workspace; /**< device to scene; null (default): no rotation, scale 1, the device's origin at
                                            the centre of all surfaces' bounds */
     double update_rate_hz;            /**< KNURL_UPDATE_RATE_MIN to _MAX; default: the loop's [1000] */
-    double resolution;       /**< the device's position quantum, 1e-9 to 0.01 m; 0: not quantised [0.055e-3] */
+    double resolution;                /**< the device's position quantum, 1e-9 to 0.01 m; 0: not quantised [0.055e-3] */
     double max_force;        /**< 0.01 to 1e6 N; longer forces are shortened to it, and to the loop's device's [3.3] */
     double continuous_force; /**< 0.01 to 1000 N that the motors can hold indefinitely; INFINITY: no limit but max_force
                                 [0.88] */
     double heat_time;        /**< time constant of the motors' heating, 0.001 to 1e6 s [60] */
-    double viscous;          /**< the device's viscous friction, 0 to 1000 N s/m, for knurl_scene_check_surface() and the
-                                passivity controller [0.5] */
-    double delay;            /**< ticks from a force written to a force felt, 0 to 16 [1] */
-    double max_stiffness;    /**< the stiffest wall in the device maker's specification, 1 to 1e9 N/m; INFINITY: not
-                                specified [1020] */
+    double viscous;       /**< the device's viscous friction, 0 to 1000 N s/m, for knurl_scene_check_surface() and the
+                             passivity controller [0.5] */
+    double delay;         /**< ticks from a force written to a force felt, 0 to 16 [1] */
+    double max_stiffness; /**< the stiffest wall in the device maker's specification, 1 to 1e9 N/m; INFINITY: not
+                             specified [1020] */
     double slew_rate; /**< the fastest change of the force in device axes, 0.01 to 1e9 N/s, except for the texture's own
                          steps and a fall (unless after KNURL_TICK_SQUEEZED): it is measured from the last force,
                          shortened to the new one's length. INFINITY: no limit; default: max_force within 5 ms */

@@ -122,8 +122,8 @@ enum {
                                   twins of some triangles, but not of all */
     KNURL_LIMIT_NORMALS = 512, /**< normals that cannot be right: their triangles are felt flat
                                   (knurl_surface_info.bad_normals) */
-    KNURL_LIMIT_STRETCH = 32   /**< uneven uvs: somewhere S1 and BANDLIMITED render more than KNURL_STRETCH_MAX times the
-                                material's ridges per metre, or fewer than 1 / KNURL_STRETCH_MAX */
+    KNURL_LIMIT_STRETCH = 32 /**< uneven uvs: somewhere S1 and BANDLIMITED render more than KNURL_STRETCH_MAX times the
+                              material's ridges per metre, or fewer than 1 / KNURL_STRETCH_MAX */
 };
 
 /** m: beyond this distance from the origin, the float32 coordinates of meshes and engines are 6 cm apart or more. */

@@ -15,15 +15,13 @@ typedef struct knurl_added_force {
     double step;     /* N: jump of a vibration in it, which the slew limit allows */
 } knurl_added_force;
 
-/* The long list of candidates comes last: at 1 kHz all of this is cold in the cache when a tick begins. */
+/* The fields of every tick are together, and the long list of candidates comes last: at 1 kHz all of this is cold in
+ * the cache when a tick begins. */
 typedef struct knurl_hip {
     uint64_t pinned; /* atomic: epoch in which the running tick began; 0: no tick runs */
     double rate;
-    double estimate[3];  /* m/s, device: the velocity, if it is estimated */
-    double between[3];   /* m, scene: from the measured position to the tracked one */
-    uint64_t tracked_at; /* tick that found it, from 1; 0: none */
-    int32_t is_rotated;  /* 0: the workspace's rotation is the identity, and is skipped */
-    int32_t centred;     /* 1: the scene chooses the workspace at its commit */
+    int32_t is_rotated; /* 0: the workspace's rotation is the identity, and is skipped */
+    int32_t centred;    /* 1: the scene chooses the workspace at its commit */
     knurl_workspace workspace;
     knurl_velocity velocity;
     knurl_guard guard;
@@ -34,6 +32,9 @@ typedef struct knurl_hip {
     knurl_hip_facts facts;     /* in use */
     knurl_workspace_move move; /* of the workspace */
     knurl_even even;
+    double estimate[3];  /* m/s, device: the velocity, if it is estimated */
+    double between[3];   /* m, scene: from the measured position to the tracked one */
+    uint64_t tracked_at; /* tick that found it, from 1; 0: none */
     knurl_contacts contacts;
 } knurl_hip;
 

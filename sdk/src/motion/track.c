@@ -5,7 +5,8 @@
 
 #include <math.h>
 
-/* Of the most that a mean is off: slower is rest, before it becomes a denormal number, which takes ten times as long. */
+/* Of the most that a mean is off: slower is rest, before it becomes a denormal number, which takes ten times as long.
+ */
 #define REST 1e-4
 
 /* x within [low, high]; low if x is not a number. */

@@ -166,7 +166,8 @@ static uint32_t count_meshes_near(const knurl_scene *scene, const double point[3
     for (uint32_t i = 0; i < found && found <= CROWD_MAX; i++) {
         count += is_mesh_near(index->items[places[i]], point, now);
     }
-    for (uint32_t i = 0; i < scene->surfaces.count && found > CROWD_MAX && count < CROWD_MAX; i++) { /* some are planes */
+    for (uint32_t i = 0; i < scene->surfaces.count && found > CROWD_MAX && count < CROWD_MAX;
+         i++) { /* some are planes */
         count += is_mesh_near(knurl_surfaces_at(&scene->surfaces, i), point, now);
     }
     return count;

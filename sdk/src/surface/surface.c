@@ -42,7 +42,6 @@ static void turn_to(const double n[3], double rotation[9]) {
 }
 
 static knurl_result set_pose(const knurl_surface_desc *d, knurl_pose *pose) {
-    static const double unturned[4] = {0.0, 0.0, 0.0, 1.0};
     double normal[3];
     knurl_result result = knurl_surface_check_pose(d->position, d->rotation, pose);
     result = result ? result : knurl_check_coordinates("normal", "", d->normal);
@@ -51,10 +50,10 @@ static knurl_result set_pose(const knurl_surface_desc *d, knurl_pose *pose) {
     }
     vec3_copy(d->normal, normal);
     if (vec3_normalise(normal) > 0.0) {
-        if (memcmp(d->rotation, unturned, sizeof unturned) != 0) {
+        const double *q = d->rotation;
+        if (q[0] != 0.0 || q[1] != 0.0 || q[2] != 0.0 || q[3] != 1.0) {
             return knurl_fail(KNURL_ERROR_ARGUMENT,
-                              "rotation: expected 0, 0, 0, 1 with a normal, found [%g, %g, %g, %g]", d->rotation[0],
-                              d->rotation[1], d->rotation[2], d->rotation[3]);
+                              "rotation: expected 0, 0, 0, 1 with a normal, found [%g, %g, %g, %g]", q[0], q[1], q[2], q[3]);
         }
         turn_to(normal, pose->rotation);
         knurl_pose_settle(pose);
