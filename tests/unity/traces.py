@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Paths over the demo assets, and what `knurl run` makes of them, as doubles that C# reads without rounding:
-FOLDER/NAME.trace.bin (t, x, y, z a row; scene axes) and FOLDER/NAME.forces.bin (fx, fy, fz a tick). Contact begins
+FOLDER/NAME.trace.bin (t, x, y, z a row; scene axes) and FOLDER/NAME.forces.bin (fx, fy, fz a tick), for meshes as they are
+and, in NAME.flat.forces.bin, without their normals: engines' own meshes are felt as triangles. Contact begins
 between two ticks, not on one: else an amplitude's rounding to float would decide which, and cycles be counted from there.
 
 usage: traces.py KNURL ASSETS FOLDER"""
@@ -55,16 +56,27 @@ def profile_of(path):
     return sorted(rings.items())
 
 
+def forces_over(model, name):
+    """fx, fy, fz of each tick of the path over a model."""
+    subprocess.run([tool, "run", model, "--fast", "--trace", f"{folder}/{name}.csv", "--out", f"{folder}/{name}.out.csv"],
+                   check=True, stdout=subprocess.DEVNULL)
+    with open(f"{folder}/{name}.out.csv") as file:
+        return [float(row[axis]) for row in csv.DictReader(file) for axis in ("fx", "fy", "fz")]
+
+
+def save(name, values):
+    with open(f"{folder}/{name}.bin", "wb") as file:
+        array.array("d", values).tofile(file)
+
+
 profile = profile_of(f"{assets}/knurled_handle.glb")
 for name, path in (("plate_1d", plate_1d), ("grid_2d", grid_2d), ("knurled_handle", lambda t: handle(t, profile))):
     rows = [(i / 500.0,) + path(i / 500.0) for i in range(1001)]
     with open(f"{folder}/{name}.csv", "w") as file:
         file.write("t,x,y,z\n")
         file.writelines(",".join(repr(value) for value in row) + "\n" for row in rows)
-    subprocess.run([tool, "run", f"{assets}/{name}.glb", "--fast", "--trace", f"{folder}/{name}.csv",
-                    "--out", f"{folder}/{name}.out.csv"], check=True, stdout=subprocess.DEVNULL)
-    with open(f"{folder}/{name}.out.csv") as file:
-        forces = [float(row[axis]) for row in csv.DictReader(file) for axis in ("fx", "fy", "fz")]
-    for kind, values in (("trace", [value for row in rows for value in row]), ("forces", forces)):
-        with open(f"{folder}/{name}.{kind}.bin", "wb") as file:
-            array.array("d", values).tofile(file)
+    save(f"{name}.trace", [value for row in rows for value in row])
+    save(f"{name}.forces", forces_over(f"{assets}/{name}.glb", name))
+    with open(f"{assets}/{name}.glb", "rb") as model, open(f"{folder}/{name}.flat.glb", "wb") as flat:
+        flat.write(model.read().replace(b'"NORMAL"', b'"_PLAIN"'))
+    save(f"{name}.flat.forces", forces_over(f"{folder}/{name}.flat.glb", name))

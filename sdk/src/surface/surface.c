@@ -53,7 +53,8 @@ static knurl_result set_pose(const knurl_surface_desc *d, knurl_pose *pose) {
         const double *q = d->rotation;
         if (q[0] != 0.0 || q[1] != 0.0 || q[2] != 0.0 || q[3] != 1.0) {
             return knurl_fail(KNURL_ERROR_ARGUMENT,
-                              "rotation: expected 0, 0, 0, 1 with a normal, found [%g, %g, %g, %g]", q[0], q[1], q[2], q[3]);
+                              "rotation: expected 0, 0, 0, 1 with a normal, found [%g, %g, %g, %g]", q[0], q[1], q[2],
+                              q[3]);
         }
         turn_to(normal, pose->rotation);
         knurl_pose_settle(pose);

@@ -122,7 +122,7 @@ namespace Knurl.Tests
         [TestCase("knurled_handle", 1)]
         public void ThroughUnitysMeshesForcesAreWithinATenthOfAMillinewton(string asset, int surfaces)
         {
-            double[] expected = Expected(asset);
+            double[] expected = Expected(asset + ".flat");
             var file = new Glb(Repository.Asset(asset + ".glb"));
             int count = 0;
             foreach (Glb.Tagged tagged in file.Surfaces())

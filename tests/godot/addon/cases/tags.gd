@@ -66,6 +66,7 @@ func right() -> Dictionary:
 			{}
 		),
 		"smooth": model(RIGHT.merged({"knurl_spatial_frequency": [0, 0]}, true), {}, {}),
+		"no_coordinates": model(RIGHT, {}, {}, {"attributes": {"POSITION": 0}}),
 		"two_nodes":
 		with_node(
 			model({}, RIGHT, {}), {"mesh": 0, "name": "b", "extras": {"knurl_stiffness": 100}}
@@ -89,7 +90,6 @@ func wrong() -> Dictionary:
 		"missing_all": model({}, {"knurl": {"version": 1}}, {}),
 		"targets": model(RIGHT, {}, {}, {"targets": [{"POSITION": 0}]}),
 		"lines": model(RIGHT, {}, {}, {"mode": 1}),
-		"no_coordinates": model(RIGHT, {}, {}, {"attributes": {"POSITION": 0}}),
 		"on_root": lost(model({}, {}, {}), "root"),
 		"on_scene": lost(model({}, {}, {}), "scene"),
 		"on_primitive": lost(model({}, {}, {}), "primitive"),
