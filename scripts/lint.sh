@@ -39,7 +39,7 @@ check_sources() {
     build/lint-venv/bin/clang-format --dry-run --Werror "$@"
     # No part of this build: fuzz targets, what chooses mutants, what is for browsers, what is built against an installed Knurl or by other
     # compilers, and what stands in for libwebsockets where it is missing.
-    local elsewhere='^tests/(fuzz|mutants|package/(consumer|host|versions))/|^tests/abi/deprecated\.c$|^samples/web/|^tests/fidelity/hashes\.c$|/view_none\.c$'
+    local elsewhere='^tests/(fuzz|mutants|package/(consumer|host|versions))/|^bindings/python/native/|^tests/abi/deprecated\.c$|^samples/web/|^tests/fidelity/hashes\.c$|/view_none\.c$'
     units=$(printf '%s\n' "$@" | grep -E '\.(c|cpp)$' | grep -vE "$windows|$elsewhere" || true)
     [ -z "$units" ] || tidy release <<<"$units"
     units=$(printf '%s\n' "$@" | grep -E '\.(c|cpp)$' | grep -E "$windows" || true)

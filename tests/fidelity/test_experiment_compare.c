@@ -279,7 +279,7 @@ TEST(simulated_subjects_answer_by_their_formula_and_the_analysis_counts_them) {
     const char *paths[SUBJECTS];
     static char kept[SUBJECTS][1024];
     for (int i = 0; i < SUBJECTS; i++) {
-        char subject[8];
+        char subject[16];
         (void)snprintf(subject, sizeof subject, "s%d", i);
         (void)snprintf(kept[i], sizeof kept[i], "%s", tool_path(subject));
         paths[i] = kept[i];
