@@ -55,7 +55,8 @@ cp -r /source/tests/package/consumer /tmp/consumer
     try_archive engines 'need python3-minimal libpython3-stdlib unzip
         mkdir /tmp/unity /tmp/godot && tar -C /tmp/unity -xf /release/com.knurl.haptics-*.tgz
         unzip -q /release/knurl-godot-[0-9]*.zip -d /tmp/godot
-        libraries=$(find /tmp/unity /tmp/godot -name "lib*.so")
+        [ "$(find /tmp/unity /tmp/godot -name "*.dylib" -o -name "*.arm64.so" | wc -l)" = 3 ] # of other systems
+        libraries=$(find /tmp/unity /tmp/godot -name "lib*.so" ! -name "*.arm64.so")
         [ "$(wc -w <<<"$libraries")" = 2 ]
         for library in $libraries; do python3 -c "import ctypes, sys; ctypes.CDLL(sys.argv[1])" "$library"; done'
 }
