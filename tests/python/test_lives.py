@@ -209,6 +209,31 @@ knurl.Loop(scene, device).step(10) # it has its device back
 print("end")
 """), "end\n")
 
+    def test_a_callback_may_drop_its_loop_and_make_another(self):
+        self.assertEqual(self.probe("""
+held, made = {}, []
+def tick(row):
+    if held:
+        held.clear()
+        made.append(knurl.Loop(None, knurl.Device("fake"), force_callback=lambda tick, sample: (0, 0, 0)))
+held["loop"] = knurl.Loop(scene, knurl.Device("fake"), tick_callback=tick)
+held["loop"].start()
+while not made: time.sleep(0.001)
+print("end")
+"""), "end\n")
+
+    def test_a_callback_that_steps_another_loop_is_still_a_callback(self):
+        self.assertEqual(self.probe("""
+inner = knurl.Loop(None, knurl.Device("fake"), force_callback=lambda tick, sample: (0, 0, 0))
+seen = []
+def tick(row):
+    inner.step(1)
+    seen.append(len(scene.contacts()))
+with knurl.Loop(scene, knurl.Device("fake"), tick_callback=tick) as loop:
+    loop.wait(0.1)
+print(len(seen) > 0)
+"""), "True\n")
+
     def test_ctrl_c_ends_a_wait(self):
         self.assertEqual(self.probe("""
 import _thread

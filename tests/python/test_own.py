@@ -77,6 +77,13 @@ class OwnDevices(unittest.TestCase):
         self.assertEqual(str(device.error), "unplugged")
         self.assertEqual([event.name for event in device.events()], ["lost"])
 
+    def test_a_position_of_two_numbers_is_a_lost_device(self):
+        device = knurl.Device.of_functions(lambda: (0.0, 0.001), lambda force: None, 3.0, motors_known=True)
+        loop = knurl.Loop(plate()[0], device)
+        loop.step(10)
+        self.assertEqual(loop.stats["state"], "lost")
+        self.assertIn("position: expected 3 numbers", str(device.error))
+
     def test_a_number_that_is_refused_leaves_nothing_behind(self):
         kept = len(knurl.callbacks._kept)
         with self.assertRaisesRegex(knurl.KnurlError, "max_force"):

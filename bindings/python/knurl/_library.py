@@ -91,7 +91,7 @@ def described(struct: str) -> Any:
 
 
 def fill(desc: Any, values: Dict[str, Any]) -> None:
-    """Sets a struct's fields by name; a name that it has not is a TypeError with the names that it has."""
+    """Sets a struct's fields by name; an unknown name is a TypeError that lists the known ones."""
     known = [name for name, _ in ffi.typeof(desc).item.fields if name not in ("struct_size", "reserved")]
     for name, value in values.items():
         if name not in known:
@@ -119,10 +119,10 @@ _open_lock = threading.RLock() # iterating over a set fails if another thread ad
 
 
 class Owner:
-    """An object of the library's. It is given back by close(), at the end of a `with`, when nobody refers to it any more, or
-    when Python ends. While another thread is within a call on it, close() takes effect at the end of that call."""
+    """An object of the library's. It is released by close(), at the end of a `with`, with its last reference, or when Python
+    ends. While another thread is within a call on it, close() takes effect at the end of that call."""
 
-    _order = 0 # of closing when Python ends: a loop before its device, for its thread may call Python
+    _order = 0 # of closing when Python ends: loops first, because their threads may call Python
     _handle: Any = None
     _closed_because = "closed"
 
@@ -145,7 +145,7 @@ class Owner:
         return self._handle is None
 
     def close(self) -> None:
-        """Gives it back. May be repeated."""
+        """Releases it. May be repeated."""
         self._handle = None
 
     def __enter__(self: Self) -> Self:

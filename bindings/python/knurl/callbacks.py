@@ -1,14 +1,15 @@
-"""Python functions that a device or a loop calls. Their C sides are made once and never freed, so that no thread can call
-one that is gone; `user` leads to what Python wants to be called. SPDX-License-Identifier: MIT"""
+"""Python functions that a device or a loop calls. The C callbacks are module-level and never freed, so that no thread can
+call a freed one; their `user` is a handle of the object with the Python functions. SPDX-License-Identifier: MIT"""
 import threading
 from typing import Any, Callable, Dict, NamedTuple, Optional, Tuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ._library import ffi, lib
 from .ticks import OUTPUTS
 
-_kept: Dict[Any, Any] = {} # by the pointer that C has, until C has said its last
+_kept: Dict[Any, Any] = {} # a reference for each `user` pointer that C holds
 _thread = threading.local()
 
 
@@ -31,7 +32,7 @@ class Calls:
 
 
 def keep(subject: Any) -> Any:
-    """A `user` pointer that leads to a subject, until let_go()."""
+    """A `user` pointer to a Python object, which is kept alive until let_go()."""
     user = ffi.new_handle(subject)
     _kept[user] = subject
     return user
@@ -50,7 +51,7 @@ def _call(calls: Calls, function: Callable[..., Any], *arguments: Any) -> Any:
     """None after an exception, which ends the loop and is raised by the loop's next wait(), step(), stop() or close()."""
     if calls.error is not None:
         return None
-    _thread.inside = True
+    was_inside, _thread.inside = in_callback(), True # a callback may step another loop
     try:
         return function(*arguments)
     except BaseException as error: # pylint: disable=broad-except
@@ -58,13 +59,13 @@ def _call(calls: Calls, function: Callable[..., Any], *arguments: Any) -> Any:
         lib.knurl_loop_request_stop(calls.loop)
         return None
     finally:
-        _thread.inside = False
+        _thread.inside = was_inside
 
 
-def _three(force: np.ndarray, to: Any) -> None:
-    values = np.asarray(force, dtype=float)
+def _three(found: ArrayLike, to: Any, name: str) -> None:
+    values = np.asarray(found, dtype=float)
     if values.shape != (3,):
-        raise ValueError(f"force: expected 3 numbers, found an array of shape {values.shape}")
+        raise ValueError(f"{name}: expected 3 numbers, found an array of shape {values.shape}")
     to[0:3] = values.tolist()
 
 
@@ -72,7 +73,7 @@ def _three(force: np.ndarray, to: Any) -> None:
 def force_callback(tick: int, sample: Any, force: Any, user: Any) -> None:
     calls, (x, y, z), turned = ffi.from_handle(user), sample.position, sample.orientation
     force[0] = force[1] = force[2] = 0.0
-    _call(calls, lambda: _three(calls.force(tick, Sample((x, y, z), sample.buttons, (*turned,))), force)) # type: ignore
+    _call(calls, lambda: _three(calls.force(tick, Sample((x, y, z), sample.buttons, (*turned,))), force, "force")) # type: ignore
 
 
 @ffi.callback("void(const knurl_tick_output *, void *)")
@@ -84,7 +85,7 @@ def tick_callback(output: Any, user: Any) -> None:
 
 
 class Functions:
-    """A caller's own device."""
+    """The Python functions of a device of the caller's own."""
 
     def __init__(self, read: Callable[[], Any], write: Callable[..., Any], info: Dict[str, Any],
                  start: Optional[Callable[[float], Any]], reopen: Optional[Callable[[], Any]],
@@ -112,8 +113,8 @@ def _take_sample(device: Functions, to: Any) -> int:
     if found is None:
         return int(lib.KNURL_ERROR_DEVICE_NOT_READY)
     sample = found if isinstance(found, Sample) else Sample(found)
-    to.position, to.buttons = np.asarray(sample.position, dtype=float).tolist(), sample.buttons
-    to.orientation = list(sample.orientation)
+    _three(sample.position, to.position, "position")
+    to.buttons, to.orientation = sample.buttons, list(sample.orientation)
     return 0
 
 
@@ -150,7 +151,7 @@ def _close(user: Any) -> None:
 
 
 def fill_functions(functions: Any, device: Functions) -> Any:
-    """Fills in knurl_device_functions; returns `user`, which knurl_device_close() lets go."""
+    """Fills in knurl_device_functions; returns `user`, which knurl_device_close() releases."""
     functions.user = user = keep(device)
     functions.get_info, functions.start, functions.read, functions.write = _get_info, _start, _read, _write
     functions.reopen = _reopen if device.reopen else ffi.NULL

@@ -14,15 +14,15 @@ from .scene import Scene, Surface, _rows, _tuple_of
 from .ticks import OUTPUTS, Ticks, as_ticks, copy_fields, packed
 
 _STATES = ("idle", "running", "done", "lost")
-_SLICE_S = 0.05        # of a wait, after which Python looks for Ctrl-C and for exceptions of callbacks
-_STEP = 4096           # ticks between two looks of step(), which the ring of a record has room for
-_RECORD_S = 10.0       # that a record's ring holds; it is emptied five times a second
-_DRAIN_S = 0.2
-_DRAINED = 1024        # rows at a time
+_SLICE_S = 0.05        # longest wait in C, after which Python handles Ctrl-C and exceptions of callbacks
+_STEP = 4096           # ticks that step() runs between two checks for exceptions; a record's ring has room for twice as many
+_RECORD_S = 10.0       # length of a record's ring; it is emptied five times a second
+_DRAIN_S = 0.2         # period of emptying it
+_DRAINED = 1024        # rows taken at a time
 
 
 class Listing(NamedTuple):
-    """A connected device, or a kind of which none is; reason: why it cannot be used and the remedy, "" if it can."""
+    """A connected device, or a kind with no device connected; reason: why it cannot be used and the remedy, "" if it can."""
 
     uri: str
     name: str
@@ -48,8 +48,8 @@ def devices() -> List[Listing]:
 
 
 class Device(Owner):
-    """A device by its URI: "fake", "touch", "falcon", "rawhid" ...; see knurl_device_open(). If it cannot be opened while
-    this program has it open by the same URI, the earlier one and its loop are closed."""
+    """A device by its URI: "fake", "touch", "falcon", "rawhid" ...; see knurl_device_open(). If this program already has it
+    open by the same URI and it cannot be opened twice, the earlier object and its loop are closed."""
 
     _order = 1
     _functions: Optional[callbacks.Functions] = None
@@ -58,7 +58,7 @@ class Device(Owner):
         lib.knurl_device_zero_on_exit(0)
         device = ffi.new("knurl_device **")
         result = lib.knurl_device_open(uri.encode(), device)
-        if result == lib.KNURL_ERROR_SYSTEM: # as when a notebook's cell is run again, which has it open
+        if result == lib.KNURL_ERROR_SYSTEM: # open already, such as by a notebook's cell that is run again
             for earlier in [other for other in open_objects(Device) if other._uri == uri]:
                 for loop in [loop for loop in open_objects(Loop) if loop._device is earlier]:
                     loop.close() # it keeps a closed device
@@ -73,16 +73,16 @@ class Device(Owner):
                      start: Optional[Callable[[float], Any]] = None, reopen: Optional[Callable[[], Any]] = None,
                      close: Optional[Callable[[], Any]] = None, blocking: bool = False, motors_known: bool = False,
                      name: str = "own", **info: Any) -> "Device":
-        """A device of your own; see knurl_device_functions. read(): the position, 3 numbers in m, or a Sample; None: none
-        this time. write(force): N, 3 numbers, max_force at most. An exception of a function is a lost device; the first is
-        in `error`. info: other fields of knurl_device_info, such as resolution or workspace_min.
+        """A device of your own; see knurl_device_functions. read(): the position, 3 numbers in m, or a Sample; None: no
+        new one. write(force): N, 3 numbers, max_force at most. An exception in a function counts as a lost device; the first
+        is in `error`. info: other fields of knurl_device_info, such as resolution or workspace_min.
 
         The functions are called on the loop's haptic thread, which then waits for Python: a Python program that does other
-        work at the same time delays it by milliseconds. For simulations use Loop.step(); for hardware that matters write
-        the functions in C."""
+        work at the same time delays it by milliseconds. For simulations use Loop.step(); for real hardware write the
+        functions in C."""
         lib.knurl_device_zero_on_exit(0)
         described_info = {"name": name.encode(), "max_force": max_force, **info}
-        fill(ffi.new("knurl_device_info *"), described_info) # an unknown name is an error here, not in a callback
+        fill(ffi.new("knurl_device_info *"), described_info) # raises here, not in a callback, if a name is unknown
         functions = described("knurl_device_functions")
         functions.blocking, functions.motors_known = blocking, motors_known
         device = cls.__new__(cls)
@@ -123,7 +123,7 @@ class Device(Owner):
         """Removes and yields the faults and recoveries since the last call, the oldest first."""
         event = ffi.new("knurl_device_event *")
         while lib.knurl_device_next_event(self.handle, event):
-            name, text, unit = (ffi.string(told(event.code)).decode() for told in
+            name, text, unit = (ffi.string(of(event.code)).decode() for of in
                                 (lib.knurl_fault_name, lib.knurl_fault_string, lib.knurl_fault_unit))
             yield Event(name, text, event.value, unit, 1e-9 * event.time_ns)
 
@@ -132,13 +132,13 @@ class Device(Owner):
         lib.knurl_device_halt(self.handle)
 
     def lay_stroke(self, scene: Scene, surface: Surface, stroke: str = "line", hip: int = 0) -> None:
-        """The fake device's hand strokes a surface, as knurl_fake_lay_stroke()."""
+        """Makes the fake device's hand stroke a surface; see knurl_fake_lay_stroke()."""
         number = ffi.new("int32_t *")
         check(lib.knurl_stroke_from_name(stroke.encode(), number))
         check(lib.knurl_fake_lay_stroke(self.handle, scene.handle, hip, surface.id, number[0], ffi.NULL))
 
     def set_stroke(self, stroke: str = "line", **values: Any) -> None:
-        """The fake device's hand makes a stroke in device coordinates; values: fields of knurl_stroke_desc."""
+        """Makes the fake device's hand stroke in device coordinates; values: fields of knurl_stroke_desc."""
         desc, number = described("knurl_stroke_desc"), ffi.new("int32_t *")
         check(lib.knurl_stroke_from_name(stroke.encode(), number))
         fill(desc, {"stroke": number[0], **values})
@@ -151,7 +151,7 @@ class Device(Owner):
 
 
 class _Record:
-    """The ring that the haptic thread fills, and what was taken out of it."""
+    """The ring that the haptic thread fills, and the ticks taken out of it so far."""
 
     def __init__(self, rate: float, fields: Optional[Sequence[str]]) -> None:
         self.type, self.rate, self.parts = packed(fields), rate, [] # type: Tuple[np.dtype, float, List[np.ndarray]]
@@ -187,19 +187,20 @@ def _drain_until_closed(loop: "weakref.ref[Loop]", pause: threading.Event) -> No
         del alive
 
 
-_later: List[Callable[[], None]] = [] # loops whose last reference went within a callback, which cannot wait for its own end
+_later: List[Callable[[], None]] = [] # releases of loops whose last reference went within a callback, which cannot wait for
+# its own thread to end
 
 
 @atexit.register
 def _finish_later() -> None:
-    while _later:
+    while _later and not callbacks.in_callback():
         _later.pop()()
 
 
 class Loop(Owner):
     """Plays a scene on a device, or a force of your own: start() at the update rate, or step() as fast as the machine can. A
-    `with` starts it, and stops and closes it at the end; stats and ticks can then still be read. A device and a HIP belong to
-    one loop: making another closes the earlier one, so that a notebook's cell can be run again."""
+    `with` starts it, and stops and closes it at the end; stats and ticks can still be read then. A device or a HIP has one
+    loop: making another closes the earlier one, so that a notebook's cell can be run again."""
 
     def __init__(self, scene: Optional[Scene], device: Device, hip: int = 0, *,
                  force_callback: Optional[Callable[[int, callbacks.Sample], Any]] = None,
@@ -208,10 +209,10 @@ class Loop(Owner):
         """force_callback(tick, sample), if scene is None: the force, 3 numbers, N, device axes. tick_callback(row): called
         with each tick's output. Both run on the haptic thread, which then waits for Python (see Device.of_functions());
         after an exception the force is zero, the loop ends, and wait(), step() or stop() raises it. record: True, or some
-        fields of knurl_tick_output: `ticks` has every tick; costs the haptic thread some nanoseconds. values: other fields of
+        fields of knurl_tick_output: `ticks` has every tick, for nanoseconds a tick on the haptic thread. values: other fields of
         knurl_loop_desc, such as update_rate_hz, tick_limit, ramp_s, reconnect."""
         if scene is None and (record or tick_callback):
-            raise ValueError("record, tick_callback: expected a scene, whose ticks they get; a force_callback sees all itself")
+            raise ValueError("record, tick_callback: expected a scene, found None; a force_callback gets every sample itself")
         _finish_later()
         for other in open_objects(Loop):
             if other._device is device or (scene is not None and (other._scene, other._hip) == (scene, hip)):
@@ -255,7 +256,7 @@ class Loop(Owner):
             threading.Thread(target=_drain_until_closed, args=(weakref.ref(self), self._closing), daemon=True).start()
 
     def step(self, ticks: int) -> None:
-        """Runs so many ticks, fewer if the loop ends; see `stats`. A scene's HIP is guarded as in Scene.tick()."""
+        """Runs `ticks` ticks, fewer if the loop ends; see `stats`. One thread at a time, as Scene.tick()."""
         with self._stepping:
             for done in range(0, ticks, _STEP):
                 check(lib.knurl_loop_step(self.handle, min(_STEP, ticks - done)))
@@ -264,7 +265,7 @@ class Loop(Owner):
                     self._record.drain()
 
     def wait(self, seconds: Optional[float] = None) -> bool:
-        """Up to so long (None: for ever) for its end; True if it has ended. Other Python threads run meanwhile."""
+        """Waits up to `seconds` (None: for ever) for its end; True if it has ended. Other Python threads run meanwhile."""
         left = float("inf") if seconds is None else seconds
         while not lib.knurl_loop_wait(self.handle, max(0.0, min(left, _SLICE_S))):
             left -= _SLICE_S
@@ -275,13 +276,13 @@ class Loop(Owner):
         return True
 
     def stop(self) -> None:
-        """Asks for the end, which comes with a ramp to zero force, and waits for it."""
+        """Ramps the force down to zero, ends the loop and waits for that, 5 s at most."""
         lib.knurl_loop_request_stop(self.handle)
         if not callbacks.in_callback():
             self.wait(5.0)
 
     def close(self) -> None:
-        """Stops the loop and gives its device and HIP back. An exception of a callback is not raised; see stop()."""
+        """Stops the loop and releases its device and HIP. Does not raise an exception of a callback; stop() does."""
         handle = self._handle
         if handle is None:
             return
@@ -314,21 +315,21 @@ class Loop(Owner):
         lib.knurl_loop_resume(self.handle)
 
     def set_gain(self, gain: float) -> None:
-        """Of all forces that are sent: 0 to 1."""
+        """Scales all forces that are sent: 0 to 1."""
         check(lib.knurl_loop_set_gain(self.handle, gain))
 
     def set_force(self, force: ArrayLike) -> None:
-        """A constant force beside the surfaces': N, scene axes, until the next call; zeros end it."""
+        """Adds a constant force to the surfaces': N, scene axes, until the next call; zeros end it."""
         check(lib.knurl_loop_set_force(self.handle, _tuple_of(force, 3, "force")))
 
     def vibrate(self, frequency: float, amplitude: float, direction: ArrayLike = (0, 1, 0), seconds: float = 1.0,
                 method: str = "T3") -> None:
-        """A vibration beside the surfaces' forces, by T1, T2 or T3: Hz, N, direction in scene axes; 0 s ends it."""
+        """Adds a vibration by T1, T2 or T3 to the surfaces' forces: Hz, N, direction in scene axes; 0 s ends it."""
         check(lib.knurl_loop_vibrate(self.handle, metrics.wave_method(method), frequency, amplitude,
                                      _tuple_of(direction, 3, "direction"), seconds))
 
     def heartbeat(self) -> None:
-        """The program is alive; see heartbeat_s of knurl_loop_desc."""
+        """Reports that the program is alive; see heartbeat_s of knurl_loop_desc."""
         lib.knurl_loop_heartbeat(self.handle)
 
     @property
@@ -340,7 +341,7 @@ class Loop(Owner):
 
     @property
     def lost(self) -> int:
-        """Recorded ticks for which there was no room, because Python did not run for 10 s: 0 as a rule."""
+        """The number of ticks that were not recorded, because Python did not run for 10 s; normally 0."""
         return int(self._record.ring.lost) if self._record is not None else 0
 
     @property
@@ -354,7 +355,7 @@ class Loop(Owner):
 
 
 def _release(user: Any, record: Any) -> Callable[[Any], None]:
-    """Of a loop's pointer: afterwards nothing of C leads to the callbacks or the ring."""
+    """The destructor of a loop's pointer; after it C holds no pointer to the callbacks or the ring."""
 
     def release(pointer: Any) -> None:
         if callbacks.in_callback():

@@ -105,7 +105,7 @@ def _false_share(power: np.ndarray, ridges: np.ndarray) -> float:
 
 
 def steady(values: ArrayLike, rate: float, frequency: float) -> Dict[str, float]:
-    """What a hand gets of ridges that pass at `frequency` Hz, with the names and definitions of the study `tradeoff`
+    """Metrics of the signal of ridges that pass at `frequency` Hz, with the names and definitions of the study `tradeoff`
     (samples/study/README.md), in the unit of `values` unless noted; 50 ms and a cycle of them at least:
 
     false_tones, felt_false_tones: the share (0 to 1) of the power, below rate / 2 or as felt, that is farther than 5 % of

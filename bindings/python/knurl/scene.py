@@ -14,7 +14,7 @@ from .ticks import OUTPUTS, Ticks, as_ticks, copy_fields, packed
 _INPUTS = arrays_of("knurl_tick_input")
 _COUNTS = arrays_of("knurl_hip_counts")
 _CONTACTS = arrays_of("knurl_hip_contact")
-_CHUNK = 1024 # ticks of a call: enough that it costs nothing beside them, few enough to stay in the cache
+_CHUNK = 1024 # ticks a call: enough to hide the cost of a call, few enough to stay in the cache
 
 
 def _tuple_of(values: ArrayLike, count: int, what: str) -> List[float]:
@@ -116,7 +116,7 @@ class Surface:
         check(lib.knurl_scene_set_material(self._scene.handle, self.id, material._desc()))
 
     def move(self, position: ArrayLike, rotation: ArrayLike = (0, 0, 0, 1), seconds: float = 0.0) -> None:
-        """As knurl_scene_set_transform()."""
+        """Moves it; see knurl_scene_set_transform(). position: m; seconds: how long it takes."""
         check(lib.knurl_scene_set_transform(self._scene.handle, self.id, _tuple_of(position, 3, "position"),
                                             _tuple_of(rotation, 4, "rotation"), seconds))
 
@@ -125,12 +125,12 @@ class Surface:
 
 
 class _Hip:
-    """A HIP's tick buffers, which one thread at a time may use: in a `with`, another one is refused."""
+    """A HIP's tick buffers, used by one thread at a time: while one is in a `with`, another's raises."""
 
     def __init__(self, number: int) -> None:
         self.number, self.rate = number, 1000.0
-        self.has_more = False # than positions in `inputs`
-        self.loop: Any = None # a weak reference to the one that ticks it on a thread of its own
+        self.has_more = False # whether `inputs` has velocities or absences
+        self.loop: Any = None # a weak reference to the loop that ticks it on a haptic thread
         self._lock = threading.Lock()
         self.inputs: np.ndarray = np.zeros(0, _INPUTS)
 
@@ -151,7 +151,7 @@ class _Hip:
     def fill(self, positions: np.ndarray, velocities: Optional[np.ndarray], absent: Optional[np.ndarray]) -> None:
         count = len(positions)
         self.position[:count] = positions
-        if self.has_more: # of an earlier call
+        if self.has_more: # from an earlier call
             self.has_velocity[:], self.absent[:], self.has_more = 0, 0, False
         if velocities is not None:
             self.velocity[:count], self.has_velocity[:count], self.has_more = velocities, 1, True
@@ -230,7 +230,7 @@ class Scene(Owner):
         return Surface(self, surface[0])
 
     def load(self, path: Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]) -> List[Surface]:
-        """Loads a glTF file; returns its tagged surfaces."""
+        """Loads a glTF file; returns its tagged surfaces, as knurl_gltf_load_file()."""
         before = lib.knurl_scene_get_surface_count(self.handle)
         check(lib.knurl_gltf_load_file(self.handle, os.fsencode(path), ffi.NULL, ffi.NULL))
         return self.surfaces[before:]
@@ -241,8 +241,8 @@ class Scene(Owner):
         return [Surface(self, lib.knurl_scene_get_surface(self.handle, i)) for i in range(count)]
 
     def configure_hip(self, hip: int = 0, workspace: Optional[Sequence[ArrayLike]] = None, **values: float) -> None:
-        """Sets a HIP up anew. workspace: (origin, rotation matrix, scale), device to scene, where the scene is not to
-        choose it. values: other fields of knurl_hip_desc, such as update_rate_hz, resolution, max_force, protections."""
+        """Sets a HIP up anew. workspace: (origin, rotation matrix, scale), device to scene; None: the scene
+        chooses it. values: other fields of knurl_hip_desc, such as update_rate_hz, resolution, max_force, protections."""
         desc = described("knurl_hip_desc")
         fill(desc, values)
         if workspace is not None:
@@ -256,7 +256,7 @@ class Scene(Owner):
             own.rate = desc.update_rate_hz if desc.update_rate_hz > 0.0 else 1000.0 # KNURL_DEFAULT
 
     def commit(self) -> None:
-        """Once, after the first surfaces: from then on the scene ticks."""
+        """Makes the scene ready to tick. Call it once, after the first surfaces."""
         check(lib.knurl_scene_commit(self.handle))
 
     def tick(self, positions: ArrayLike, velocities: Optional[ArrayLike] = None, hip: int = 0,
@@ -304,9 +304,9 @@ class Scene(Owner):
         own = self._hip(hip)
         loop = own.loop and own.loop()
         if loop and not loop.closed and not in_callback():
-            refuse(f"hip {hip}: expected a call within the loop's tick_callback, for its thread ticks the HIP")
+            refuse(f"hip {hip}: expected a call within the loop's tick_callback, because its thread ticks the HIP")
         pointer = ffi.from_buffer("knurl_hip_contact[]", found)
-        if in_callback(): # on the thread that has the HIP
+        if in_callback(): # on the thread that ticks the HIP
             return found[:lib.knurl_scene_get_contacts(self.handle, hip, pointer, len(found))]
         with own:
             return found[:lib.knurl_scene_get_contacts(self.handle, hip, pointer, len(found))]

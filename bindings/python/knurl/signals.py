@@ -1,4 +1,4 @@
-"""What a tick is made of, alone: velocities from positions, and the heights of a grating. SPDX-License-Identifier: MIT"""
+"""Parts of a tick by themselves: velocities from positions, and the heights of a grating. SPDX-License-Identifier: MIT"""
 from typing import Optional, Sequence
 
 import numpy as np

@@ -9,7 +9,7 @@ from ._library import arrays_of, lib
 
 OUTPUTS = arrays_of("knurl_tick_output")
 
-# The fields' SI units; the others have none.
+# SI units of fields; those not listed have no unit.
 UNITS = {"device_force": "N", "force": "N", "hip": "m", "proxy": "m", "depth": "m", "height": "m", "hip_velocity": "m/s",
          "surface_velocity": "m/s", "spatial_frequency": "1/m", "temporal_frequency": "Hz"}
 _PREFIXES = {"": 1.0, "k": 1e-3, "m": 1e3, "u": 1e6}
@@ -72,13 +72,13 @@ class Ticks(np.ndarray):
         return self.rate
 
     def to_frame(self, fields: Optional[Sequence[str]] = None, units: Optional[Mapping[str, str]] = None) -> Any:
-        """A pandas.DataFrame with a column a number: "depth", "force_x", "force_y", "force_z". fields: which (None: all that
-        there are). units: other than SI, such as {"depth": "mm", "force": "mN"}; `frame.attrs["units"]` has all. The index
-        is the time in s if there is the field "tick"."""
+        """A pandas.DataFrame with a column a number: "depth", "force_x", "force_y", "force_z". fields: some of its fields (None:
+        all). units: other units than SI, such as {"depth": "mm", "force": "mN"}; `frame.attrs["units"]` has all. The index is
+        the time in s if there is the field "tick"."""
         import pandas
 
         columns: Dict[str, np.ndarray] = {}
-        told: Dict[str, str] = {}
+        column_units: Dict[str, str] = {}
         names = list(self.dtype.names or ()) if fields is None else list(fields)
         units = dict(units or {})
         if set(units) - set(names):
@@ -90,15 +90,15 @@ class Ticks(np.ndarray):
                 values = values * _factor(name, unit)
             parts = [name] if values.ndim == 1 else [f"{name}_{axis}" for axis in "xyz"[:values.shape[1]]]
             for i, part in enumerate(parts):
-                columns[part], told[part] = values if values.ndim == 1 else values[:, i], unit
+                columns[part], column_units[part] = values if values.ndim == 1 else values[:, i], unit
         timed = "tick" in (self.dtype.names or ())
         index = pandas.Index(self["tick"] / self._hz(), name="t") if timed else None
         frame = pandas.DataFrame(columns, index=index)
-        frame.attrs["units"] = told
+        frame.attrs["units"] = column_units
         return frame
 
     def verdict(self, amplitude: float = 1.0) -> "Verdict":
-        """Measures what was played against what was crossed; see Verdict. amplitude: A of the grating, m, the unit of
+        """Compares the half cycles played with those crossed; see Verdict. amplitude: A of the grating, m, the unit of
         level, push and crest (1: m). Needs the fields height and temporal_frequency, and
         flags if the hand is not always in contact."""
         height, hz, rate = self._field("height"), self._field("temporal_frequency"), self._hz()
@@ -113,7 +113,7 @@ class Ticks(np.ndarray):
             steady = metrics.steady(height[begin:end], rate, found.hz)
             found.false_tones, found.felt_false_tones = steady["false_tones"], steady["felt_false_tones"]
             found.push, found.crest = steady["push"] / amplitude, steady["crest"] / amplitude
-            phase = 2j * np.pi * np.cumsum(hz[begin:end]) / rate # the hand's own, which a constant hz would run away from
+            phase = 2j * np.pi * np.cumsum(hz[begin:end]) / rate # the hand's own: a constant hz would drift from it
             found.level = float(2.0 * abs(np.exp(phase) @ height[begin:end]) / (end - begin) / amplitude)
         return found
 
@@ -143,14 +143,14 @@ def as_ticks(rows: np.ndarray, rate: float) -> Ticks:
     return ticks
 
 
-BLOCK_S = 0.05   # in which a frequency is taken
-STEADY = 0.05    # of it: the most that blocks of a steady stretch differ by; a line within it is the ridges' own
+BLOCK_S = 0.05   # length of a block, over which the frequency is averaged
+STEADY = 0.05    # largest relative difference of the frequencies of a steady stretch's blocks
 LEAST_BLOCKS = 5
 
 
 def _steady_stretch(hz: np.ndarray, rate: float) -> Tuple[int, int]:
-    """The longest run of blocks whose mean frequencies differ by at most STEADY: begin and end, ticks; 0, 0: none of
-    LEAST_BLOCKS."""
+    """The longest run of blocks whose mean frequencies differ by at most STEADY: begin and end, ticks; 0, 0 if it
+    has fewer than LEAST_BLOCKS."""
     block = max(1, int(BLOCK_S * rate + 0.5))
     means = hz[:len(hz) // block * block].reshape(-1, block).mean(axis=1)
     best, begin = (0, 0), 0
@@ -165,7 +165,7 @@ def _steady_stretch(hz: np.ndarray, rate: float) -> Tuple[int, int]:
 
 @dataclass
 class Verdict:
-    """What a hand got of a stroke. crossed, played: half cycles, of all ticks. The others are of the longest stretch, ticks
+    """Measures of a stroke. crossed, played: half cycles, of all ticks. The others are of the longest stretch, ticks
     `begin` to `end`, over which ridges pass at a steady `hz` (within 5 % for 0.25 s at least), NaN if there is none:
     false_tones and felt_false_tones (shares of the power), level (of the line that keeps step with the hand; a square wave
     has 4/pi), push (the height that stays over 50 ms) and crest, in units of `amplitude`: see `metrics.steady`."""

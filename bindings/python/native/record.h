@@ -1,16 +1,16 @@
-/* A loop's ticks on their way to Python: its haptic thread never waits for Python. SPDX-License-Identifier: MIT */
+/* Passes a loop's ticks to Python without making its haptic thread wait. SPDX-License-Identifier: MIT */
 #ifndef KNURL_PYTHON_RECORD_H
 #define KNURL_PYTHON_RECORD_H
 
 #include <knurl/hip.h>
 
-/** A ring of ticks with one writer and one reader. Zeroed by its owner, but for rows and capacity. */
+/** A ring of ticks with one writer and one reader. Its owner sets rows and capacity and zeroes the rest. */
 typedef struct knurl_record {
-    knurl_tick_output *rows; /**< `capacity` of them, the owner's */
+    knurl_tick_output *rows; /**< `capacity` rows, owned by the caller */
     uint64_t capacity;
-    uint64_t written; /**< by the haptic thread */
-    uint64_t read;    /**< by the reader */
-    uint64_t lost;    /**< ticks for which there was no room */
+    uint64_t written; /**< ticks added, by the haptic thread */
+    uint64_t read;    /**< ticks taken, by the reader */
+    uint64_t lost;    /**< ticks dropped because the ring was full */
 } knurl_record;
 
 /** Adds a tick, or counts it as lost if the ring is full: a knurl_tick_callback whose `user` is a record. [haptic
