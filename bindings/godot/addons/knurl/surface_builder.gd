@@ -176,6 +176,7 @@ func _grating_of(tag: Tags.Tag) -> KnurlGrating:
 	var values: Dictionary = tag.values.duplicate()
 	values.erase("axis")  # the surface's, as are the coordinates
 	values.erase("coordinates")
+	values.erase("smooth")  # a node's mesh is felt as its triangles
 	if not _gratings.has(values):
 		var grating := KnurlGrating.new()
 		for key: String in values:

@@ -16,8 +16,9 @@ namespace Knurl.Samples
         Color color = new Color(0.88f, 0.88f, 0.88f);
 
         Material material;
+        Texture2D ridges;
 
-        /// <summary>Counts until the component starts.</summary>
+        /// <summary>Of the object; of a plate's ridges. Set it before the component starts.</summary>
         public Color Color
         {
             get { return color; }
@@ -35,17 +36,14 @@ namespace Knurl.Samples
             var surface = GetComponent<KnurlSurface>();
             if (surface != null && surface.Grating != null)
             {
-                material.mainTexture = Draw(surface.Grating, transform.lossyScale);
+                material.mainTexture = ridges = Draw(surface.Grating, transform.lossyScale);
             }
         }
 
         void OnDestroy()
         {
-            if (material != null)
-            {
-                Destroy(material.mainTexture);
-                Destroy(material);
-            }
+            Destroy(ridges); // not the material's texture, which may be an asset of the project
+            Destroy(material);
         }
 
         /// <summary>size: the quad's, m.</summary>

@@ -3,7 +3,7 @@ using UnityEngine;
 
 namespace Knurl.Samples
 {
-    /// <summary>Beside a <see cref="KnurlDevice"/>: shows what it feels as text, and as a plot of the latest ticks.</summary>
+    /// <summary>Shows the state of the <see cref="KnurlDevice"/> beside it as text, and its last ticks as a plot.</summary>
     [RequireComponent(typeof(KnurlDevice))]
     public sealed class KnurlReadout : MonoBehaviour
     {
@@ -14,7 +14,7 @@ namespace Knurl.Samples
         void Start()
         {
             haptic = GetComponent<KnurlDevice>();
-            haptic.fault.AddListener((code, text) => fault = code < 32 ? text : ""); // from 32 on it is well again
+            haptic.fault.AddListener((code, text) => fault = code < 32 ? text : ""); // 32 and up: recovered
             plot = new KnurlPlot();
         }
 
