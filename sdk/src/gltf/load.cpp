@@ -54,10 +54,9 @@ class Names {
     /// Starts with the names of the scene's surfaces.
     explicit Names(const knurl_scene *scene) {
         for (uint32_t i = 0; i < knurl_scene_get_surface_count(scene); ++i) {
-            knurl_surface_info info;
-            knurl_surface_info_init(&info, sizeof info);
-            if (knurl_scene_get_surface_info(scene, knurl_scene_get_surface(scene, i), &info) == KNURL_OK)
-                taken_.emplace(info.name, 1);
+            const char *name = nullptr;
+            if (knurl_scene_get_surface_name(scene, knurl_scene_get_surface(scene, i), &name) == KNURL_OK)
+                taken_.emplace(name, 1);
         }
     }
 
