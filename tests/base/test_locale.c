@@ -51,3 +51,18 @@ TEST(messages_have_decimal_points_and_the_hosts_locale_stays) {
     knurl_scene_destroy(scene);
     (void)setlocale(LC_ALL, "C");
 }
+
+TEST(messages_of_the_gltf_loader_have_decimal_points) {
+    knurl_gltf_options options;
+    knurl_scene *scene;
+    if (!use_commas()) {
+        skip();
+    }
+    knurl_gltf_options_init(&options, sizeof options);
+    options.max_seconds = -0.5;
+    assert_int_equal(knurl_scene_create(NULL, &scene), KNURL_OK);
+    assert_int_equal(knurl_gltf_load_memory(scene, "", 0, NULL, NULL, &options, NULL), KNURL_ERROR_ARGUMENT);
+    assert_non_null(strstr(knurl_error_message(), "found -0.5"));
+    knurl_scene_destroy(scene);
+    (void)setlocale(LC_ALL, "C");
+}

@@ -39,8 +39,7 @@ Budget::Budget(const knurl_gltf_options &options) : options_(options) {
     check_limit(options.max_vertices, UINT64_MAX / 2, "max_vertices");
     check_limit(options.max_triangles, triangles_max, "max_triangles");
     if (!(options.max_seconds >= 0.0))
-        throw Failure(KNURL_ERROR_ARGUMENT,
-                      "options.max_seconds: expected >= 0, found " + std::to_string(options.max_seconds));
+        throw Failure(KNURL_ERROR_ARGUMENT, "options.max_seconds: expected >= 0, found " + shown(options.max_seconds));
     options_.max_surfaces = options.max_surfaces != 0 ? options.max_surfaces : surfaces_default;
     options_.max_bytes = options.max_bytes != 0 ? options.max_bytes : bytes_max;
     options_.max_seconds = options.max_seconds > 0.0 ? options.max_seconds : seconds_default;
@@ -75,8 +74,7 @@ void Budget::step(double done) {
     done_ = std::max(done_, done);
     const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
     if (seconds > options_.max_seconds)
-        throw Failure(KNURL_ERROR_FULL, "options.max_seconds: expected at most " +
-                                            std::to_string(options_.max_seconds) +
+        throw Failure(KNURL_ERROR_FULL, "options.max_seconds: expected at most " + shown(options_.max_seconds) +
                                             " s, found more (see knurl_gltf_options)");
     if (options_.progress != nullptr && options_.progress(options_.user, done_) != 0)
         throw Failure(KNURL_ERROR_CANCELLED, "the load was cancelled");

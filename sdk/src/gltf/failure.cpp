@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "failure.hpp"
 
+#include <locale>
+#include <sstream>
+
 namespace knurl::gltf {
 
 void refuse(const std::string &where, const std::string &what, knurl_result code) {
@@ -18,6 +21,14 @@ std::string shortened(std::string_view text, size_t limit) {
 
 std::string in_quotes(std::string_view text) {
     return "'" + shortened(text) + "'";
+}
+
+std::string shown(double number) {
+    std::ostringstream text;
+    text.imbue(std::locale::classic());
+    text.precision(3);
+    text << number;
+    return text.str();
 }
 
 std::string label(const char *kind, std::string_view name, size_t index) {

@@ -35,6 +35,9 @@ std::string shortened(std::string_view text, size_t limit = 64);
 /** The same in single quotes. */
 std::string in_quotes(std::string_view text);
 
+/** A number with a decimal point in every locale of the host: "1.5", "1e+09". */
+std::string shown(double number);
+
 /** "material 'bars' (0)", or "material 0" if it has no name. */
 std::string label(const char *kind, std::string_view name, size_t index);
 

@@ -5,7 +5,6 @@
 #include <array>
 #include <iterator>
 #include <tuple>
-#include <unordered_map>
 
 namespace knurl::gltf {
 namespace {

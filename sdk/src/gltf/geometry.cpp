@@ -12,7 +12,7 @@ std::vector<float> read_attribute(const Model &model, const tinygltf::Primitive 
     if (found == primitive.attributes.end())
         return {};
     const std::string place = where + ": " + name;
-    // Exporters write NaN as the normal of a triangle without area: the scene tells bad normals.
+    // Exporters write NaN as the normal of a triangle without area: the scene counts bad normals.
     std::vector<float> values = read_floats(model, found->second, place, std::string_view(name) != "NORMAL");
     if (vertices != 0 && values.size() / components != vertices)
         refuse(place, "expected one element for each of " + std::to_string(vertices) + " positions, found " +

@@ -5,7 +5,6 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 namespace knurl::gltf {
@@ -44,7 +43,7 @@ glm::dmat4 local_matrix(const Model &model, uint32_t index) {
         const double length = glm::length(rotation);
         if (!(std::fabs(length - 1.0) <= unit_tolerance))
             refuse(node_label(model, index),
-                   "rotation: expected a quaternion of length 1, found length " + std::to_string(length));
+                   "rotation: expected a quaternion of length 1, found length " + shown(length));
         matrix = glm::mat4_cast(glm::normalize(rotation));
     }
     if (!node.scale.empty())
@@ -53,13 +52,6 @@ glm::dmat4 local_matrix(const Model &model, uint32_t index) {
     if (!node.translation.empty())
         matrix[3] = glm::dvec4(glm::make_vec3(node.translation.data()), 1.0);
     return matrix;
-}
-
-/// "1e+39"
-std::string shown(double value) {
-    char text[32];
-    (void)std::snprintf(text, sizeof text, "%.3g", value);
-    return text;
 }
 
 bool is_in_range(double coordinate) {
