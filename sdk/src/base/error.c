@@ -5,7 +5,6 @@
 #include "base/format.h"
 
 #include <stdarg.h>
-
 #include <string.h>
 
 #define KNURL_TEXT_(x) #x

@@ -17,11 +17,3 @@ int knurl_format_arguments(char *to, size_t size, const char *format, va_list ar
     }
     return length;
 }
-
-int knurl_format(char *to, size_t size, const char *format, ...) {
-    va_list arguments;
-    va_start(arguments, format);
-    const int length = knurl_format_arguments(to, size, format, arguments);
-    va_end(arguments);
-    return length;
-}
