@@ -49,15 +49,15 @@ static int load_functions(char *why, size_t why_size) {
 
 #if defined(_WIN32)
 #define NO_LIBRARY "libusb-1.0 cannot be loaded: %s; put libusb-1.0.dll into the program's folder"
-
-static const char permission[] = "it may not be opened: is it in use by another program, or by this one?";
-#else
-#if defined(__APPLE__)
+#elif defined(__APPLE__)
 #define NO_LIBRARY "libusb-1.0 cannot be loaded: %s; install it (Homebrew: libusb)"
 #else
 #define NO_LIBRARY "libusb-1.0 cannot be loaded: %s; install it (Debian: libusb-1.0-0)"
 #endif
 
+#if defined(_WIN32) || defined(__APPLE__)
+static const char permission[] = "it may not be opened: is it in use by another program, or by this one?";
+#else
 static const char permission[] =
     "it may not be used by this account; copy sdk/udev/70-knurl.rules to /etc/udev/rules.d, run 'udevadm control "
     "--reload' and 'udevadm trigger', and plug it in again";
