@@ -18,7 +18,7 @@ typedef struct knurl_gltf_options {
     uint32_t max_surfaces;  /**< default 2^16; at most 2^20. The scene's max_surfaces applies too */
     uint64_t max_bytes;     /**< of the file and its buffers, each file once; default and at most 2^30 */
     uint64_t max_vertices;  /**< elements of POSITION, NORMAL, TANGENT and TEXCOORD_0 read for all shapes; default 2^24
-                               plus 16  per byte read */
+                               plus 16 per byte read */
     uint64_t max_triangles; /**< of all shapes (nodes that show one mesh with the same scale share one); default 2^20
                                  plus one per 2 bytes read; at most 2^26 */
     double max_seconds;     /**< s; checked between steps, the longest of which is the largest shape's (about 1 s per

@@ -31,7 +31,8 @@ typedef struct knurl_grating {
     double spatial_frequency[2]; /**< fsx, fsy: cycles per metre along x and y, >= 0 */
     double amplitude;            /**< A: m, half peak to peak of the desired square wave, >= 0 */
     double update_rate_hz;       /**< f_h: 1 to 100,000 Hz */
-    double resolution; /**< m: quantum of the positions, 0 if they are exact. Above 0 halves S2's deadband at times */
+    double resolution; /**< m: quantum of the positions, 0 if they are exact. S2: if above 0, an event halves the
+                          deadband */
 } knurl_grating;
 
 /** The state of one HIP on one grating. Zero it to restart. */
@@ -84,8 +85,8 @@ KNURL_API double knurl_grating_frequency(const double spatial_frequency[2], cons
  * - BANDLIMITED: with p the phase, d = f_t/f_h and w a fade from 1 to 0 for n d from 0.38 to 0.5,
  *   H = 4/pi A (cos 2 pi p - w/3 cos 6 pi p + w/5 cos 10 pi p). Below d = 1/12 it fades into the mean of the square
  *   wave from the last tick's phase to this one's, which alone is used below 0.06. Above 1/2 the height is 0.7 A and
- *   changes sign every tick. p is fs times the position. On a grid, p counts cycles along the axis that crosses the
- * most (Eq. 12), and continues without a jump if the other axis takes over, at 1.1 times as many.
+ *   changes sign every tick. p is fs times the position. On a grid, p counts cycles along the axis that crosses
+ *   the most ridges (Eq. 12), and continues without a jump if the other axis takes over, at 1.1 times as many.
  *
  * [haptic thread] */
 KNURL_API void knurl_grating_step(const knurl_grating *grating, knurl_grating_state *state, const double position[2],

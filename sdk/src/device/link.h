@@ -81,7 +81,7 @@ knurl_result knurl_link_start_guard(knurl_link *link, const knurl_device *device
 /* For exchanges. Counts bytes that form no message; the first of several in a row are reported. */
 void knurl_link_count_bad(knurl_link *link, knurl_device *device, uint64_t bytes);
 
-/* For exchanges of a device that tells why it plays no forces: trouble, 0 or a KNURL_FAULT_, is reported once, with
+/* For exchanges of a device that reports why it plays no forces: trouble, 0 or a KNURL_FAULT_, is reported once, with
  * `cause` as its value. Returns KNURL_LINK_POSITION, or KNURL_LINK_OFF. */
 int knurl_link_take_trouble(knurl_link *link, int32_t trouble, int32_t cause);
 

@@ -1,6 +1,7 @@
 /* Finds an encoder's counts in recorded positions: on each axis the coarsest lattice on which all its values lie,
- * within the last digit that was written. A lattice alone proves nothing: a steady speed makes one, too. Counts are
- * believed if single steps are one count longer or shorter than equal steps before and after, as rounding makes them.
+ * within the last digit that was written. A lattice alone is no proof, because a steady speed makes one too. So there
+ * must be single steps that are one count longer or shorter than the equal steps before and after, as rounding makes
+ * them.
  * SPDX-License-Identifier: MIT */
 #include "device/fake/counts.h"
 
@@ -9,14 +10,21 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define FINEST     2e-7 /* m: a finer quantum is taken as exact: its false speed is 0.2 mm/s at 1 kHz */
-#define DIGITS_MAX 9    /* decimals of a metre; more are taken as exact */
-#define VALUES_LEAST                                                                                                   \
-    12 /* different values of an axis. Three in five integers lie within a lattice of 2.5, by chance                   \
-        */
-#define SINGLES_LEAST                                                                                                  \
-    8               /* steps of one count more or less than both neighbours; no smooth trace that was tried has any */
-#define GAP_MOST 40 /* counts in the shortest gap between two values */
+/* m: a finer quantum is taken as exact: its false speed is 0.2 mm/s at 1 kHz. */
+#define FINEST 2e-7
+
+/* Decimals of a metre; text with more is taken as exact. */
+#define DIGITS_MAX 9
+
+/* Different values of an axis. With fewer, they may lie on a lattice by chance: three in five integers lie within a
+ * lattice of 2.5. */
+#define VALUES_LEAST 12
+
+/* Steps of one count more or less than both neighbours. No smooth trace that was tried has any. */
+#define SINGLES_LEAST 8
+
+/* Counts in the shortest gap between two values. */
+#define GAP_MOST 40
 
 /* One axis: its values less the first, in order of time, and sorted without duplicates. */
 typedef struct axis_values {
@@ -136,8 +144,8 @@ static uint64_t count_singles(const axis_values *a, double quantum) {
     return singles;
 }
 
-/* The axis' own quantum, if it is certain; else 0. All gaps may be of several counts. What was written with few digits
- * is in counts of the last one, if no coarser ones are found. */
+/* The axis' own quantum, if it is certain; else 0. All gaps may be of several counts. If there is no coarser lattice,
+ * text of few digits has the last one as its quantum. */
 static double find_quantum(const axis_values *a) {
     if (a->count < VALUES_LEAST) {
         return 0.0;
