@@ -155,3 +155,14 @@ TEST(few_or_still_rows_have_none) {
     }
     CHECK_SAME(find(), 0.0L);
 }
+
+/* 0, 2 and 5 of the last digit are on a lattice of 2.5, within that digit. */
+TEST(few_values_on_a_lattice_by_chance_are_no_counts) {
+    static const double values[] = {0.0, 2.0, 2.0, 5.0, 2.0, 2.0};
+    for (int i = 0; i < ROWS; i++) {
+        rows[i][0] = i / 1000.0;
+        rows[i][1] = 1e-5 * values[i % 6];
+        rows[i][2] = rows[i][3] = 0.0;
+    }
+    CHECK_SAME(find(), 0.0L);
+}
