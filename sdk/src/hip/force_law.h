@@ -100,7 +100,7 @@ static inline void knurl_force_law(const knurl_hip_motion *hip, const knurl_acti
     play_grating(hip, c, over, velocity, coordinates, wall, out);
     wall->height = out->grating.height;
     vec3_scale(knurl_normal_force(wall, vec3_dot(over, c->contact.normal)), c->normal, out->force);
-    if (KNURL_UNLIKELY(c->is_sharp)) { /* ramped as the depth is */
+    if (KNURL_UNLIKELY(c->is_sharp) && c->contact.z < 0.0) { /* ramped as the depth is; a smooth mesh may have none */
         vec3_madd(out->force, wall->stiffness * (wall->z / c->contact.z), c->candidate->excess, out->force);
     }
     if (c->record->material.friction > 0.0) {

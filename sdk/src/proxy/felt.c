@@ -38,21 +38,21 @@ static void feel_part(const knurl_mesh *mesh, int32_t side, const knurl_felt_par
 static void feel_parts(const knurl_mesh *mesh, int32_t side, const knurl_felt_parts *parts, knurl_contact *c,
                        knurl_facet *facet) {
     const double deepest = c->z - mesh->bulge;
-    knurl_contact first = *c;
+    const knurl_contact whole = *c;
     double sum[3] = {0.0, 0.0, 0.0};
-    feel_part(mesh, side, &parts->list[0], &first, facet);
     for (uint32_t i = 0; i < parts->count; i++) {
         knurl_facet unused;
-        knurl_contact part = *c;
-        feel_part(mesh, side, &parts->list[i], &part, &unused);
+        knurl_contact part = whole;
+        feel_part(mesh, side, &parts->list[i], &part, i == 0 ? facet : &unused);
         vec3_madd(sum, knurl_max(0.0, -part.z), part.normal, sum);
+        *c = i == 0 ? part : *c;
     }
-    *c = first;
     const double depth = vec3_normalise(sum);
     if (depth > 0.0) {
-        c->z = knurl_max(-depth, deepest);
+        c->z = -depth;
         vec3_copy(sum, c->normal);
     }
+    c->z = knurl_max(c->z, deepest);
 }
 
 int knurl_felt_find(knurl_active_contact *a) {

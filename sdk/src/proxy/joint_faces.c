@@ -34,7 +34,7 @@ static void sum_faces(const knurl_joint_search *m, const knurl_active_faces *fac
     touched->contact.unsure = 0;
     touched->contact.facet = NULL;
     touched->parts.count = 0;
-    if (o->surface->shape.bulge > 0.0) {
+    if (o->surface->shape.bulge > 0.0 && depth > 0.0) { /* else the faces cancel each other */
         for (uint32_t i = 0; i < faces->count; i++) {
             const knurl_active_face *face = &faces->list[i];
             if (face->obstacle == obstacle && face->press > 0.0) {
@@ -48,8 +48,8 @@ static void sum_faces(const knurl_joint_search *m, const knurl_active_faces *fac
 }
 
 /* In a crease of several surfaces under 90 degrees, faces press more than the proxy is away, up to any multiple of it
- * where walls are nearly parallel, and cancel each other. Contacts of such depths would push the HIP sideways as soon
- * as one wall is softer, or begins later. So the depths are limited to the proxy's distance, and what is missing
+ * if walls are nearly parallel, and cancel each other. Contacts of such depths would push the HIP sideways as soon
+ * as one wall is softer, or begins later. So the depths are limited to the proxy's distance, and the rest
  * (`excess`) is added such that the sum is the distance itself, as if all were one mesh: of equal shares along the
  * proxy's direction and the faces' own pushes, mixed so that no contact pushes by more than the distance. */
 static void share_crease(knurl_joint_search *m, double longest) {
