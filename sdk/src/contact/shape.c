@@ -200,16 +200,17 @@ static knurl_result from_plane(knurl_heap *heap, const knurl_shape_desc *d, knur
 }
 
 /* Decides where the coordinates come from; leaves out what is not used. */
-static const char *choose_coordinates(const knurl_shape_desc *d, knurl_mesh_desc *desc) {
+static const char *choose_coordinates(const knurl_shape_desc *d, knurl_mesh_desc *desc, int32_t *has_flat_uvs) {
     if (d->axis) {
         return "axis";
     }
     if (d->is_box) {
         desc->uvs = desc->tangents = NULL;
     }
-    const int has_flat_uvs = desc->uvs && !knurl_uvs_are_usable(desc);
-    desc->uvs = has_flat_uvs ? NULL : desc->uvs;
-    return desc->uvs ? "uvs" : desc->tangents ? "tangents" : has_flat_uvs ? "box, for its uvs have no area" : "box";
+    const int is_usable = desc->uvs && knurl_uvs_are_usable(desc);
+    *has_flat_uvs = desc->uvs && !is_usable && !desc->tangents;
+    desc->uvs = is_usable ? desc->uvs : NULL;
+    return desc->uvs ? "uvs" : desc->tangents ? "tangents" : *has_flat_uvs ? "box, for its uvs have no area" : "box";
 }
 
 static knurl_result from_mesh(knurl_heap *heap, const knurl_shape_desc *d, knurl_shape *shape, double position[3],
@@ -223,7 +224,7 @@ static knurl_result from_mesh(knurl_heap *heap, const knurl_shape_desc *d, knurl
     if (result) {
         return result;
     }
-    shape->coordinates = choose_coordinates(d, &desc);
+    shape->coordinates = choose_coordinates(d, &desc, &shape->has_flat_uvs);
     const int is_projected = !d->axis && !desc.uvs && !desc.tangents;
     shape->why = "the full model was requested (KNURL_FULL_MESHES)";
     const int curves = knurl_mesh_curves(&desc);

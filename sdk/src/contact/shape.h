@@ -33,7 +33,7 @@ typedef struct knurl_shape {
     double seam;              /* m: beyond its edges that a cast still hits */
     double bulge; /* m: greatest distance of the felt surface from a smooth mesh's triangles; 0: felt as is */
     int32_t has_coordinates, is_projected; /* 1: there are positions on the grating; 1: projected, with jumps */
-    int32_t double_sided;                  /* 1: every triangle can be touched from both sides */
+    int32_t double_sided, has_flat_uvs;    /* 1: every triangle has two sides; 1: projected, for its uvs have no area */
     const char *why, *coordinates;         /* static, of knurl_surface_info */
 } knurl_shape;
 

@@ -87,7 +87,7 @@ static void check_stretch(const inspection *on, const knurl_surface_data *surfac
     if (!knurl_methods[m->method].follows_position || has_axis) {
         return;
     }
-    if (strstr(surface->shape.coordinates, "no area")) {
+    if (surface->shape.has_flat_uvs) {
         say(on, KNURL_LIMIT_STRETCH, "unwrap it, give it an axis, or ask for box coordinates",
             "its uvs have no area, as a palette's, so ridges are projected along its axes");
     }
