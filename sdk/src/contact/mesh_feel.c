@@ -11,20 +11,19 @@
 /* m: a point this far beside is the felt one. At a radius of 5 mm the direction is then off by 0.01 degrees. */
 #define ARRIVED 1e-6
 
-/* Slope of the way to the HIP, against the normal at a hard edge, up to which the HIP is held from the edge, as in a
+/* Slope of the line to the HIP, against the normal at a hard edge, up to which the HIP is held from the edge, as in a
  * groove: 76 degrees. */
 #define GROOVE_SLOPE 4.0
 
-/* The contact's way over the surface. */
-typedef struct way {
+/* The contact's path over the surface. */
+typedef struct path {
     const knurl_mesh *mesh;
-    const double *hip;
     knurl_patch patch;
     knurl_patch_point at;
     double weights[3];
     int hard; /* the corner opposite the hard edge that the point is on, or -1 */
     int rim;  /* 1: that edge is a boundary */
-} way;
+} path;
 
 static void load(const knurl_mesh *mesh, uint32_t triangle, knurl_patch *patch) {
     double corners[3][3], normals[3][3];
@@ -35,7 +34,7 @@ static void load(const knurl_mesh *mesh, uint32_t triangle, knurl_patch *patch) 
 }
 
 /* Continues in the triangle beyond the edge opposite corner k. Returns 0 if the edge is hard. */
-static int cross_edge(way *w, uint32_t k) {
+static int cross_edge(path *w, uint32_t k) {
     const uint32_t beyond = w->mesh->opposite[3 * (size_t)w->patch.triangle + k];
     const uint32_t apex = beyond & KNURL_CORNER_MASK;
     const uint32_t next = (k + 1) % 3, last = (k + 2) % 3;
@@ -58,9 +57,9 @@ static int cross_edge(way *w, uint32_t k) {
     return 1;
 }
 
-/* Changes of the weights that bring the point below the HIP, if the surface went on as it is here. Returns 0 if there
- * are none. */
-static int find_step(const way *w, double step[3]) {
+/* Changes of the weights that bring the point below the HIP, if the surface went on as it is here. Returns 0 if they
+ * are undefined. */
+static int find_step(const path *w, double step[3]) {
     const knurl_patch_point *at = &w->at;
     double across[3];
     vec3_cross(at->tangents[0], at->tangents[1], across);
@@ -74,7 +73,7 @@ static int find_step(const way *w, double step[3]) {
 }
 
 /* The same along a hard edge; 0 if the point has arrived. */
-static int find_step_along(const way *w, double step[3]) {
+static int find_step_along(const path *w, double step[3]) {
     const int next = (w->hard + 1) % 3, last = (w->hard + 2) % 3;
     const double none[3] = {0.0, 0.0, 0.0};
     double edge[3];
@@ -88,7 +87,7 @@ static int find_step_along(const way *w, double step[3]) {
 }
 
 /* One step, at most to the edge of the triangle. Returns 0 at its end. */
-static int step(way *w) {
+static int take_step(path *w) {
     double step[3], share = 1.0;
     int over = -1;
     if (!find_step(w, step)) {
@@ -122,7 +121,7 @@ static int step(way *w) {
 }
 
 /* At a hard edge the HIP is held from the edge, in its direction: a groove's proxy. Beyond a boundary it is not. */
-static void hold_from_edge(const way *w, int32_t side, double normal[3], double *z) {
+static void hold_from_edge(const path *w, int32_t side, double normal[3], double *z) {
     const double beside = vec3_length(w->at.beside);
     vec3_scale(side, w->at.normal, normal);
     *z = side * w->at.z;
@@ -134,7 +133,7 @@ static void hold_from_edge(const way *w, int32_t side, double normal[3], double 
     }
 }
 
-static void set_facet(const way *w, int32_t side, const double normal[3], knurl_facet *f) {
+static void set_facet(const path *w, int32_t side, const double normal[3], knurl_facet *f) {
     f->triangle = w->patch.triangle;
     f->side = side;
     f->has_frame = 0;
@@ -149,20 +148,19 @@ static void set_facet(const way *w, int32_t side, const double normal[3], knurl_
 void knurl_mesh_feel(const knurl_mesh *mesh, int32_t side, knurl_contact *c, knurl_facet *facet) {
     const double *weights = c->weights;
     double hip[3], normal[3], z;
-    way w;
+    path w;
     if (knurl_mesh_is_flat_at(mesh, c->triangle) && weights[0] > 0.0 && weights[1] > 0.0 && weights[2] > 0.0) {
         return;
     }
     vec3_madd(c->proxy, c->z, c->normal, hip);
     w.mesh = mesh;
-    w.hip = hip;
     w.hard = -1;
     w.rim = 0;
     vec3_copy(weights, w.weights);
     load(mesh, c->triangle, &w.patch);
     for (int i = 0;; i++) {
         knurl_patch_at(&w.patch, w.weights, hip, &w.at);
-        if (i == STEPS || vec3_dot(w.at.beside, w.at.beside) <= ARRIVED * ARRIVED || !step(&w)) {
+        if (i == STEPS || vec3_dot(w.at.beside, w.at.beside) <= ARRIVED * ARRIVED || !take_step(&w)) {
             break;
         }
     }

@@ -111,7 +111,7 @@ void knurl_mesh_set_axis(knurl_mesh *mesh, const double axis[3]) {
     along[1] = sum / area;
 }
 
-/* What a coordinate grows by a metre along the triangle: in its plane, a way w is a edge1 + b edge2, with a = w .
+/* A coordinate's growth per metre along the triangle: in its plane, a displacement w is a edge1 + b edge2, with a = w .
  * (edge2 x across) / area2 and b = w . (across x edge1) / area2. c1, c2: its growth along the edges. */
 static void find_gradient(const double edge1[3], const double edge2[3], const double across[3], double c1, double c2,
                           double scale, double gradient[3]) {
@@ -176,8 +176,8 @@ static void frame_along(const double normal[3], const double along[3], double x[
     vec3_cross(normal, x, y);
 }
 
-/* m: the coordinate across the axis. On a smooth mesh, whose y turns along the way, it is measured along the triangle's
- * y. */
+/* m: the coordinate across the axis. On a smooth mesh, whose y turns along the stroke, it is measured along the
+ * triangle's y. */
 static double across_triangle(const knurl_mesh *mesh, const knurl_contact *contact) {
     knurl_triangle t;
     double x[3], y[3];

@@ -82,7 +82,7 @@ knurl_result knurl_mesh_pack_normals(knurl_heap *heap, const knurl_mesh_desc *de
     return mesh->normals ? KNURL_OK : KNURL_ERROR_MEMORY;
 }
 
-/* What becomes of a triangle. */
+/* How a triangle is felt; BAD: flat, because its normals do not describe a surface. */
 enum { FLAT, CURVED, BAD };
 
 static int folds(const knurl_patch *patch, const double face[3], double area2) {

@@ -17,7 +17,7 @@
 knurl_result knurl_mesh_pack_normals(knurl_heap *heap, const knurl_mesh_desc *desc, const uint32_t *corners,
                                      knurl_mesh *mesh);
 
-/* Then, with the winding unified: decides which triangles are curved; frees the normals if none is. */
+/* Then, with the winding unified: decides which triangles are curved; frees the normals if no triangle is. */
 void knurl_mesh_settle_normals(knurl_heap *heap, knurl_mesh *mesh);
 
 /* 1 if some triangle of a description is to be felt curved: not a plane. */

@@ -23,7 +23,7 @@ typedef struct knurl_patch_point {
     double tangents[2][3]; /* change of the point at the HIP's height for the weights of corners 1 and 2, made
                               perpendicular to the normal */
     double z;              /* m: height of the HIP along the normal */
-    double beside[3];      /* m: the rest of the way to the HIP; 0 at the point that is felt */
+    double beside[3];      /* m: the rest of the line to the HIP; 0 at the felt point */
 } knurl_patch_point;
 
 /* Sets a patch up from its triangle and unit normals. */

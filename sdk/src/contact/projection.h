@@ -21,15 +21,11 @@ static inline int knurl_projection_side(const double normal[3]) {
     return 2 * axis + (normal[axis] < 0.0);
 }
 
-/* By side. */
+/* By direction. */
 static const knurl_projection knurl_projections[6] = {{2, 1, -1.0, 1.0}, {2, 1, 1.0, 1.0}, {0, 2, 1.0, -1.0},
                                                       {0, 2, 1.0, 1.0},  {0, 1, 1.0, 1.0}, {0, 1, -1.0, 1.0}};
 
-static inline const knurl_projection *knurl_projection_of(int side) {
-    return &knurl_projections[side];
-}
-
-/* Kept from tick to tick of a contact: what is added to its coordinates, and the direction of the last tick. */
+/* Kept from tick to tick of a contact: an offset of its coordinates, and the direction of the last tick. */
 typedef struct knurl_projection_carry {
     double by[2]; /* m */
     int32_t side;
@@ -37,7 +33,7 @@ typedef struct knurl_projection_carry {
 
 /* A point's coordinates, m. */
 static inline void knurl_projection_place(int side, const double p[3], double coordinates[2]) {
-    const knurl_projection *on = knurl_projection_of(side);
+    const knurl_projection *on = &knurl_projections[side];
     coordinates[0] = on->u_sign * p[on->u];
     coordinates[1] = on->v_sign * p[on->v];
 }
