@@ -191,8 +191,27 @@ TEST(people_s_answers_are_only_gone_on_with_by_their_own_session) {
                      "contact_second_s,softer_ticks,fault_first,fault_second\n"
                      "4,test,keyboard,touch,8,yes,1,1,1,0.27,S1,S2,S2,1,30000,0,0,0,0,9,9,0,none,none\n");
     process p = RUN("compare", "S1", "S2", "--fast", "--seed", "9", "--out", path);
-    check_failed(&p, 1, "neither a part of this session");
+    check_failed(&p, 1, "neither an unfinished part of this session");
     (void)remove(path);
+}
+
+/* As an editor may leave it. */
+TEST(a_file_whose_last_line_has_no_end_is_gone_on_with) {
+    const char *whole = tool_path("ended.csv");
+    const char *cut = tool_path("unended.csv");
+    session(whole, NULL);
+    char *text = read_file(whole);
+    char *end = text;
+    for (int line = 0; line < 5; line++) {
+        end = strchr(end, '\n') + 1;
+    }
+    end[-1] = 0;
+    write_text(cut, text);
+    session(cut, "going on with trial 5 of 18");
+    check_same_files(cut, whole);
+    free(text);
+    (void)remove(cut);
+    (void)remove(whole);
 }
 
 TEST(an_interrupted_session_ends_with_130_and_says_how_to_go_on) {
@@ -268,6 +287,20 @@ TEST(subjects_and_trials_are_excluded_by_the_rules_alone) {
         if (rows[i].excluded != wanted) {
             fail_msg("row %u of %s: excluded %d", (unsigned)(i % 16), rows[i].subject, rows[i].excluded);
         }
+    }
+}
+
+/* 3 of 12 wrong: more than one in six, whether the training was had once or before each session. */
+TEST(a_second_training_is_held_to_the_same_share_of_right_answers) {
+    static exp_record rows[64];
+    exp_records records = {rows, 0, COUNT_OF(rows)};
+    records.count += add_subject(rows + records.count, "right", 1, 5);
+    records.count += add_subject(rows + records.count, "right", 1, 5);
+    records.count += add_subject(rows + records.count, "wrong", 1, 5);
+    records.count += add_subject(rows + records.count, "wrong", 2, 5);
+    exp_exclude(&records);
+    for (size_t i = 0; i < records.count; i++) {
+        assert_int_equal(rows[i].excluded, i >= 32);
     }
 }
 

@@ -41,7 +41,7 @@ static const char *subject_fault(const subject_rows *c) {
     if (c->taught < EXP_TRAINING) {
         return "no complete training";
     }
-    if (c->right < EXP_RIGHT_LEAST) {
+    if (c->right * EXP_TRAINING < EXP_RIGHT_LEAST * c->taught) { /* one who had the training twice: of all 12 */
         return "too few right answers in training";
     }
     return c->second > most || c->asked - c->second > most ? "nearly always the same side" : NULL;

@@ -116,7 +116,7 @@ typedef struct exp_session {
 /* What a trial came to. */
 typedef struct exp_outcome {
     int32_t chosen;               /* 0: the first (left), 1: the second (right) */
-    double rt_s;                  /* from when the question was put; 0 where simulated */
+    double rt_s;                  /* from when the question was put; 0 if simulated */
     uint64_t ticks;               /* played, restarts not counted */
     uint64_t force_limit_ticks;   /* ticks whose force the device could not give in full */
     uint64_t above_nyquist_ticks; /* ticks whose temporal frequency was above half the update rate */
@@ -158,7 +158,7 @@ typedef struct exp_run {
     void *user;
     uint64_t question_tick; /* answers count from here on, if `ready` */
     uint64_t end_tick;      /* simulated answers, or no question: the loop ends here */
-    /* atomics: the haptic thread's word */
+    /* atomics, which the haptic thread writes */
     uint32_t left;    /* 1: the trial is to be begun anew */
     uint32_t ready;   /* 1: the question may be put as far as `force` is concerned */
     uint32_t asking;  /* 1: the question stands */
@@ -201,7 +201,7 @@ typedef struct exp_record {
     int32_t experiment, simulated, sound;
     uint32_t number;  /* of the trial, from 1 */
     int32_t side;     /* preferred: 0 the first, 1 the second */
-    int32_t excluded; /* exp_exclude()'s word */
+    int32_t excluded; /* 1: exp_exclude() found a reason */
     char subject[32];
 } exp_record;
 
@@ -225,7 +225,7 @@ void exp_chop(char *line);
 
 /* --- exclude.c: experiment 4's rules, written down before there are data --- */
 
-#define EXP_RIGHT_LEAST 5     /* of the six trials of the training; else the subject is excluded */
+#define EXP_RIGHT_LEAST 5     /* of each six trials of training; else the subject is excluded */
 #define EXP_SIDE_MOST   0.9   /* share of the answers for one side; else the subject is excluded */
 #define EXP_CONTACT_S   3.0   /* with each grating; else the trial is excluded, as for the next two */
 #define EXP_LATE_SHARE  0.001 /* of a trial's ticks that came late */

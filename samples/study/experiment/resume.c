@@ -36,6 +36,7 @@ static int read_text(const char *path, char **text) {
         free(all);
         return tool_error(TOOL_FAILURE, "%s: cannot be read: %s", path, f ? "its size is wrong" : why);
     }
+    all[size] = all[size - 1] == '\n' ? 0 : '\n'; /* an editor may have left the last line without its end */
     *text = all;
     return TOOL_OK;
 }
@@ -56,10 +57,11 @@ int exp_resume(const exp_session *session, const exp_trial *trials, uint32_t cou
         *done = (uint32_t)records.count;
         code = read_text(session->out, text);
     } else if (code == TOOL_OK && !records.rows[0].simulated) {
-        code = tool_error(TOOL_FAILURE,
-                          "%s: is there already and neither a part of this session nor of simulated answers; choose "
-                          "another --out or --subject",
-                          session->out);
+        code = tool_error(
+            TOOL_FAILURE,
+            "%s: is there already and neither an unfinished part of this session nor of simulated answers; choose "
+            "another --out or --subject",
+            session->out);
     }
     free(records.rows);
     return code;
