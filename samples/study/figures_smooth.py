@@ -35,7 +35,7 @@ def draw_smooth(data, folder):
     cost.set(xscale="log", yscale="log", xlabel="triangles; marks: mean angle off", xlim=(300, 4e4), ylim=(1e-3, 2))
     along.legend(loc="lower right", frameon=False, fontsize=9, labelcolor=INK)
     for ax in (along, across):
-        ax.set(xlim=(0, np.nanmax(table["mm"])), xlabel="way (mm)")
+        ax.set(xlim=(0, np.nanmax(table["mm"])), xlabel="distance (mm)")
     for ax in (along, across, cost):
         ax.grid(True, color=PALE, lw=0.8, zorder=0)
         ax.tick_params(length=2, colors=GREY)
