@@ -14,7 +14,7 @@ from clang.cindex import CursorKind, Index, TranslationUnit, TypeKind
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 HEADERS = ROOT / "sdk/include"
-UNITS = "cycles per metre|samples per second|cycles/m|cycles|ticks|bytes|m/s|N s/m|N/m|N/s|N^2|N|Hz|kg|rad|ns|m|s"
+UNITS = r"cycles per metre|samples per second|cycles/m|cycles|ticks|bytes|m/s|N s/m|N/m|N/s|N\^2|N|Hz|kg|rad|ns|m|s"
 NUMBER = r"-?(?:\d[\d.e^,-]*\d|\d)|KNURL_\w+|INFINITY"
 
 
@@ -31,7 +31,7 @@ def first(pattern, text):
 
 def facts(doc):
     """What a docstring says in the headers' fixed phrases; what it does not say is left out."""
-    unit = first(rf"(?:^|[,:] |\d )({re.escape(UNITS).replace(chr(92) + '|', '|')})(?=[\s,:;.)]|$)", doc)
+    unit = first(rf"(?:^|[,:] |\d )({UNITS})(?=[\s,:;.)]|$)", doc)
     told = {"doc": doc, "unit": unit, "range": first(rf"((?:{NUMBER}) to (?:{NUMBER})|>=? 0\b)", doc),
             "default": first(r"(?<!by )\bdefault:? ((?:[^;.,:)]|\.(?=\d)|, (?=[\d-]))+)", doc) or first(r"\[([^\]]*)\]$", doc)}
     return {key: value for key, value in told.items() if value}
@@ -50,8 +50,8 @@ def parameters(cursor, doc):
 
 def function(cursor, doc):
     told = {"header": pathlib.Path(cursor.location.file.name).name, "returns": spell(cursor.result_type),
-            "parameters": list(parameters(cursor, doc)), "variadic": cursor.type.is_function_variadic(), "doc": doc, "thread": first(r"\[([^\]]*)\](?:[^\[]*)$", doc),
-            "errors": re.findall(r"KNURL_ERROR_\w+", doc)}
+            "parameters": list(parameters(cursor, doc)), "variadic": cursor.type.is_function_variadic(),
+            "doc": doc, "thread": first(r"\[([^\]]*)\](?:[^\[]*)$", doc), "errors": re.findall(r"KNURL_ERROR_\w+", doc)}
     return {key: value for key, value in told.items() if value or key == "parameters"}
 
 

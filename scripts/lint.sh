@@ -37,8 +37,8 @@ check_sources() {
     local windows='(_windows\.c|^tests/windows/.*)$' units
     /usr/bin/python3 -B tests/tool/printing.py
     build/lint-venv/bin/clang-format --dry-run --Werror "$@"
-    # No part of this build: fuzz targets, what chooses mutants, what is for browsers, what is built against an installed Knurl or by other
-    # compilers, and what stands in for libwebsockets where it is missing.
+    # No part of this build: fuzz targets, the chooser of mutants, code for browsers, code that is built against an
+    # installed Knurl or by other compilers, and the stand-in for libwebsockets.
     local elsewhere='^tests/(fuzz|mutants|package/(consumer|host|versions))/|^bindings/python/native/|^tests/abi/deprecated\.c$|^samples/web/|^tests/fidelity/hashes\.c$|/view_none\.c$'
     units=$(printf '%s\n' "$@" | grep -E '\.(c|cpp)$' | grep -vE "$windows|$elsewhere" || true)
     [ -z "$units" ] || tidy release <<<"$units"

@@ -42,7 +42,8 @@ static void show_cue(const exp_session *session, const exp_run *run, uint64_t ti
     *shown = now;
 }
 
-/* The question stands: puts it once, then looks for the answer. Returns 1 or 2, 0 for not yet, -1 without hope. */
+/* The question stands: puts it once, then looks for the answer. Returns 1 or 2, 0 if there is no answer yet, -1 if
+ * there can be none. */
 static int ask(const exp_session *session, exp_run *run, int *asked) {
     if (!*asked) {
         os_forget_keys(); /* typed before the question: no answer to it */

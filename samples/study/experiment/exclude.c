@@ -67,7 +67,7 @@ static void exclude_subject(exp_records *records, size_t first) {
         say(stdout, "excluded: subject %s: %s (%u of %u right in training, the second chosen in %u of %u)\n",
             of->subject, why, (unsigned)c.right, (unsigned)c.taught, (unsigned)c.second, (unsigned)c.asked);
     }
-    for (size_t i = records->count; why && i-- > first;) { /* the first last: it says who the subject is */
+    for (size_t i = records->count; why && i-- > first;) { /* the first row last: `of` is that row */
         if (belongs(&records->rows[i], of)) {
             records->rows[i].excluded = 1;
         }

@@ -159,7 +159,7 @@ static int explore(const exp_session *session, const exp_trial *trial, int side,
     if (build(session, trial, &e) || (side >= 0 && stroke(session, trial, side))) {
         code = tool_error(TOOL_FAILURE, "%s", knurl_error_message());
     } else if (!session->fast) {
-        (void)knurl_scene_lock_memory(e.scene); /* where it is not allowed, it works all the same */
+        (void)knurl_scene_lock_memory(e.scene); /* if it is not allowed, a trial works all the same */
     }
     code = code ? code : exp_drive(session, &run, &outcome);
     if (e.scene) {

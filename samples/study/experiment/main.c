@@ -135,7 +135,7 @@ static int read_words(const options *o, exp_session *s) {
     return read_seed(o->seed, s);
 }
 
-/* What does not go together. */
+/* Options that exclude each other. */
 static int check(const exp_session *s) {
     const int fake = strncmp(s->uri, "fake", 4) == 0;
     if (s->fast && !fake) {
@@ -157,7 +157,7 @@ static void on_signal(int number) {
     exp_interrupted = number;
 }
 
-/* The file's name if none is given. */
+/* The file's name without --out. */
 static void name_file(const exp_session *s, char *path, size_t size) {
     const exp_design *d = s->design;
     const char *amplitude = s->reduced ? "reduced" : "as-printed";
