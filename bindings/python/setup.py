@@ -30,8 +30,8 @@ def version():
 
 
 def interface():
-    """The headers as cffi reads them: preprocessed, without what other headers declare, and without attributes; of macros
-    those that are whole numbers."""
+    """The headers as cffi reads them: preprocessed, without declarations of other headers and without attributes; of macros
+    only whole numbers."""
     compiler = os.environ.get("CC", "cc")
     text = subprocess.run([compiler, "-E", "-dD", "-I", HEADERS, "-DKNURL_NONBLOCKING=", "-include", "knurl/knurl.h", "-include",
                            os.path.join(HERE, "native/record.h"), "-x", "c", os.devnull], check=True, capture_output=True, text=True).stdout

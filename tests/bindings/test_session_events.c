@@ -78,10 +78,11 @@ static void check_touches(const three *t, const char *told) {
     check_no_event(t->s);
 }
 
-/* Within a frame: presses on plates, and '^' lifts. What comes back was never away, and each is told once. */
+/* Moves within a frame: a digit presses on that plate, '^' lifts. A plate that is touched again in the same frame was
+ * never left, and each plate gets one event of a kind. */
 TEST(touches_of_a_frame_are_told_once_and_in_their_order) {
     static const struct {
-        int is_touching; /* the first plate, and that was told */
+        int is_touching; /* the first plate, and its event was read */
         const char *frames[2], *told[2];
     } cases[] = {
         {0, {"0^", ""}, {"+0-0", ""}},

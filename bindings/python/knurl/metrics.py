@@ -132,7 +132,7 @@ def steady(values: ArrayLike, rate: float, frequency: float) -> Dict[str, float]
 
 
 def step(values: ArrayLike, cycles: ArrayLike) -> float:
-    """How far what is felt gets out of step with the ridges: the worst distance, in cycles, of a tick's place on the grating
+    """How far the played half cycles get out of step with the ridges: the worst distance, in cycles, of a tick's place on the grating
     from the half cycle that is played, which is counted by the changes of sign of `values`; 0 within half a cycle. cycles:
     the place, a tick each (`cycles` of a tick along the axis that is stroked): whole where a ridge begins to rise. From each
     turn of the hand on the first half cycle is taken for the nearest of its sign. For S1 and bandlimited; S2's events, which

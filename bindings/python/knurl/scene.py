@@ -107,7 +107,7 @@ class Surface:
         return dict(to_python(info))
 
     def limits(self, hip: int = 0) -> str:
-        """The limits of the HIP's device that it exceeds, a sentence each; "" if there is none."""
+        """The limits of the HIP's device that it exceeds, a sentence each; "" if it exceeds no limit."""
         found = described("knurl_surface_check")
         check(lib.knurl_scene_check_surface(self._scene.handle, hip, self.id, found))
         return str(to_python(found.message))
