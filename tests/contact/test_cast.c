@@ -1,4 +1,4 @@
-/* Casts against one triangle at a time: what hits, from where, and how far beyond the edges.
+/* Casts against one triangle at a time: the sides that are hit, and the seam beyond the edges.
  * SPDX-License-Identifier: MIT */
 #include "support/probe.h"
 
@@ -17,13 +17,13 @@ static probe make(const double corners[3][3], int way) {
     return probe_shape(&s);
 }
 
-/* Straight down from `above` to `below` over (x, y). */
-static int cast(const probe *p, int way, const double xy[2], const double ends[2], int double_sided,
+/* From z = ends[0] to ends[1], over (x, y) half way; slant: m along x on each half. */
+static int cast(const probe *p, int way, const double xy[2], double slant, const double ends[2], int double_sided,
                 knurl_cast_hit *hit) {
     knurl_cast c;
     memset(&c, 0, sizeof c);
     for (int end = 0; end < 2; end++) {
-        const double at[3] = {xy[0], xy[1], ends[end]};
+        const double at[3] = {xy[0] + (end ? slant : -slant), xy[1], ends[end]};
         for (int axis = 0; axis < 3; axis++) {
             (end ? c.to : c.from)[axis] = at[(way / 3 + axis) % 3];
         }
@@ -47,7 +47,7 @@ TEST(a_triangle_reaches_beyond_each_edge_by_the_seam) {
                     const double off = (side < 0 ? -2.0 : side ? 1.5 : 0.5) * p.mesh->seam / length; /* outwards */
                     const double xy[2] = {a[0] + 0.1 * step * (b[0] - a[0]) + off * (b[1] - a[1]),
                                           a[1] + 0.1 * step * (b[1] - a[1]) - off * (b[0] - a[0])};
-                    assert_int_equal(cast(&p, way, xy, down, 0, &hit), side < 1);
+                    assert_int_equal(cast(&p, way, xy, 0.0, down, 0, &hit), side < 1);
                     if (side < 1) {
                         CHECK_CLOSE(hit.share, 0.6, 1e-9);
                         CHECK_CLOSE(hit.height, 0.03, 1e-9);
@@ -60,7 +60,7 @@ TEST(a_triangle_reaches_beyond_each_edge_by_the_seam) {
     }
 }
 
-/* Its edges prolonged meet far beyond its tips. */
+/* Its edges prolonged meet far beyond its tips. The cast is slanted, so that its box does not exclude the triangle. */
 TEST(a_sliver_reaches_beyond_its_tips_by_the_seam_too) {
     static const double sliver[3][3] = {{-0.05, 0.0, 0.0}, {0.05, 0.0, 0.0}, {0.02, 2e-7, 0.0}};
     static const double down[2] = {0.01, -0.01};
@@ -71,9 +71,9 @@ TEST(a_sliver_reaches_beyond_its_tips_by_the_seam_too) {
             const double near[2] = {side * (0.05 + 0.5 * p.mesh->seam), 0.0};
             const double beyond[2] = {side * (0.05 + 2.0 * p.mesh->seam), 0.0};
             const double above[2] = {0.02, side * (2e-7 + 2.0 * p.mesh->seam)};
-            assert_int_equal(cast(&p, way, near, down, 0, &hit), 1);
-            assert_int_equal(cast(&p, way, beyond, down, 0, &hit), 0);
-            assert_int_equal(cast(&p, way, above, down, 0, &hit), 0);
+            assert_int_equal(cast(&p, way, near, 0.01, down, 0, &hit), 1);
+            assert_int_equal(cast(&p, way, beyond, 0.01, down, 0, &hit), 0);
+            assert_int_equal(cast(&p, way, above, 0.01, down, 0, &hit), 0);
         }
         probe_free(&p);
     }
@@ -96,7 +96,7 @@ TEST(a_cast_hits_what_it_comes_through_from_the_front_or_from_where_it_stands) {
             for (int both = 0; both < 2; both++) {
                 knurl_cast_hit hit;
                 const int expected = both ? cases[i].hits_double_sided : cases[i].hits;
-                assert_int_equal(cast(&p, way, xy, cases[i].ends, both, &hit), expected);
+                assert_int_equal(cast(&p, way, xy, 0.0, cases[i].ends, both, &hit), expected);
                 if (expected) {
                     CHECK_CLOSE(hit.share, cases[i].share, 1e-6);
                     CHECK_CLOSE(hit.height, fabs(cases[i].ends[0]) * (cases[i].share > 0.0 ? 1.0 : -1.0), 1e-9);
@@ -126,7 +126,7 @@ TEST(the_first_of_several_is_hit) {
         const double top = order & 1 ? 0.02 : 0.0;
         const double ends[2] = {top + 0.01 * order + 0.005, -0.05};
         knurl_cast_hit hit;
-        assert_int_equal(cast(&p, 0, xy, ends, 0, &hit), 1);
+        assert_int_equal(cast(&p, 0, xy, 0.0, ends, 0, &hit), 1);
         CHECK_CLOSE(hit.point[2], top, 1e-8);
         CHECK_CLOSE(hit.share, (ends[0] - top) / (ends[0] - ends[1]), 1e-6);
         probe_free(&p);
