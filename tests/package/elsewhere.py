@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Looks at what was cross-built for macOS and for Linux on arm64: what it exports, what it needs, how it is signed; and
-compares a run of the arm64 tool under qemu with the same run of this machine's.
+"""Checks the cross-built libraries and tools for macOS and for Linux on arm64: exports, dependencies and signatures. Compares
+a run of the arm64 tool under qemu with the same run of this machine's tool.
 
 usage: elsewhere.py BUILD KNURL PLATE     BUILD: with the folders macos-arm64, macos-x86_64 and linux-arm64
 SPDX-License-Identifier: MIT"""
@@ -28,9 +28,10 @@ def below(preset, *path):
 def libraries(preset):
     ends = ".dylib" if "macos" in preset else ".so"
     for folder in ("godot", "unity"):
-        for name in sorted(os.listdir(below(preset, folder))):
-            if name.endswith(ends):
-                yield below(preset, folder, name)
+        names = sorted(name for name in os.listdir(below(preset, folder)) if name.endswith(ends))
+        if not names:
+            raise AssertionError(f"expected a library in {below(preset, folder)}, found no {ends} file")
+        yield from (below(preset, folder, name) for name in names)
 
 
 def entry_of(path):
