@@ -1,5 +1,5 @@
-"""api.json agrees with the libraries and with the C compiler: it names every exported function, and what it says of their
-parameters and of every field's place compiles beside the headers. SPDX-License-Identifier: MIT
+"""api.json agrees with the libraries and with the C compiler: it names every exported function, and its signatures, field
+offsets and field types compile beside the headers. SPDX-License-Identifier: MIT
 usage: test_api.py API.JSON READELF CC LIBRARY..."""
 import json
 import pathlib
@@ -12,7 +12,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def declared(kind, name):
-    """A C declaration of a name from a type as api.json spells it: 'const double[3]', 'int (*)(void *)'."""
+    """A C declaration of a name from a type as api.json spells it: 'const double[3]', 'int (*)(void *)'. (*) as the name: a
+    pointer to the type."""
     if "(*)" in kind:
         return kind.replace("(*)", f"(*{name})", 1)
     found = re.match(r"([^\[]*)((?:\[\d*\])*)$", kind)
@@ -50,7 +51,7 @@ class ApiTest(unittest.TestCase):
             self.assertEqual(s["fields"][0]["offset"], 0)
             for f in s["fields"]:
                 checks += [f'_Static_assert(offsetof({name}, {f["name"]}) == {f["offset"]}, "{name}.{f["name"]}");',
-                           f'_Static_assert(_Generic(&(({name} *)0)->{f["name"]}, {pointer(f["type"])}: 1, default: 0), '
+                           f'_Static_assert(_Generic(&(({name} *)0)->{f["name"]}, {declared(f["type"], "(*)")}: 1, default: 0), '
                            f'"{name}.{f["name"]}: {f["type"]}");']
         self.compiles(checks)
 
@@ -71,14 +72,6 @@ class ApiTest(unittest.TestCase):
 
     def test_every_function_says_its_thread(self):
         self.assertEqual([name for name, f in API["functions"].items() if not f.get("doc") or not f.get("thread")], [])
-
-
-def pointer(kind):
-    """The type of a pointer to it."""
-    if "(*)" in kind:
-        return kind.replace("(*)", "(**)", 1)
-    found = re.match(r"([^\[]*)((?:\[\d*\])*)$", kind)
-    return f"{found[1]} (*){found[2]}"
 
 
 if __name__ == "__main__":
