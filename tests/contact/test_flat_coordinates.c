@@ -1,4 +1,4 @@
-/* Coordinates of meshes that may become planes: from which UVs, tangents and axes they come, and which keep a mesh.
+/* Coordinates of flat meshes from UVs, tangents and axes, and coordinates with which a mesh does not become a plane.
  * SPDX-License-Identifier: MIT */
 #include "flat_outcome.h"
 
@@ -111,7 +111,7 @@ TEST(axis_gives_metres_from_the_meshs_origin) {
         CHECK_CLOSE(o.plane->stretch[0][i], length, 1e-12);
     }
     CHECK_CLOSE(o.plane->map[0][0], length, 1e-12);
-    CHECK_CLOSE(o.plane->map[0][2], dot3(o.position, axis), 1e-12); /* what 0.25 m along z adds is in it */
+    CHECK_CLOSE(o.plane->map[0][2], dot3(o.position, axis), 1e-12); /* with the offset of 0.25 m along z */
     CHECK_CLOSE(o.plane->map[1][2], (o.position[1] * 0.6 - o.position[0] * 0.64) / length, 1e-12);
     forget(&o);
 }

@@ -1,10 +1,11 @@
-/* The curved patch over a triangle: its tangents are what differences of its points say. SPDX-License-Identifier: MIT
+/* The curved patch over a triangle: its tangents against differences of its points. SPDX-License-Identifier: MIT
  */
 #include "support/geometry.h"
 
 #include "contact/patch.h"
 
-/* The point for some weights, as seen from there: its tangents are the changes, without what is along the normal. */
+/* The point for some weights, with the HIP at that point: its tangents are the changes, less the part along the
+ * normal. */
 static knurl_patch_point at_weights(const knurl_patch *patch, double w1, double w2) {
     const double w[3] = {1.0 - w1 - w2, w1, w2}, nowhere[3] = {0.0, 0.0, 0.0};
     knurl_patch_point at, again;

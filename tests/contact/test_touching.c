@@ -1,4 +1,4 @@
-/* Where a mesh touches itself, and how far its triangles extend, against distances worked out the slow way.
+/* Pairs of triangles that touch, and the seam, against distances that a search over all pairs finds.
  * SPDX-License-Identifier: MIT */
 #include "contact/oracle.h"
 #include "support/probe.h"

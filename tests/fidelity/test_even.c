@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-/* What is felt of a square wave's harmonics below f_h/2, each held by a tick, by their closed forms. */
+/* The felt strength of a square wave's harmonics below f_h/2, each held for a tick: closed forms. */
 static double closed(double hz) {
     double power = 0.0;
     for (double f = hz, n = 1.0; f < 500.0; f += 2.0 * hz, n += 2.0) {

@@ -214,7 +214,7 @@ TEST(a_file_whose_last_line_has_no_end_is_gone_on_with) {
     (void)remove(whole);
 }
 
-TEST(an_interrupted_session_ends_with_130_and_says_how_to_go_on) {
+TEST(a_session_interrupted_in_its_first_trial_ends_with_130_and_writes_no_file) {
     const char *path = tool_path("long.csv");
     const char *const arguments[] = {KNURL_TEST_EXPERIMENT, "compare", "S1",    "S2", "--answers", "simulated",
                                      "--training",          "no",      "--out", path, NULL};

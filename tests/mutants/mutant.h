@@ -5,7 +5,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
-extern int knurl_mutant;                /* the number of the mutant that runs; none: 0 */
+extern int knurl_mutant;                /* the number of the mutant that runs; 0: the original code */
 extern unsigned char *knurl_mutant_met; /* by number: 1 if it was reached */
 #ifdef __cplusplus
 }

@@ -8,8 +8,8 @@ time. For each, the programs that reach it run, those of its room first, until o
 than without it. The sample is the same each time: a change elsewhere in the sources does not alter what is drawn from
 the rest. --again runs those that survived the last time, after tests were added; --list only prints the sample.
 
-Writes build/mutants/mutants.json and prints a table. equivalent.txt names those that no test can tell from the
-original, with the reason. SPDX-License-Identifier: MIT
+Writes build/mutants/mutants.json and prints a table. equivalent.txt names changes that no test can tell from
+the original, with the reason. SPDX-License-Identifier: MIT
 """
 
 import argparse
@@ -139,7 +139,7 @@ def plant(numbered):
         ["git", "ls-files", "-co", "--exclude-standard"], cwd=ROOT, capture_output=True, text=True, check=True
     )
     for name in listed.stdout.splitlines():
-        source, content = ROOT / name, None
+        source = ROOT / name
         if not source.is_file():
             continue
         content = source.read_bytes()
@@ -203,7 +203,7 @@ def build(numbered):
 
 
 def programs():
-    """The test programs of the plain run, what keeps real time last."""
+    """The test programs that need no real time and are not extended."""
     shown = subprocess.run(["ctest", "--show-only=json-v1"], cwd=BUILD, capture_output=True, text=True, check=True)
     for test in json.loads(shown.stdout)["tests"]:
         settings = {item["name"]: item["value"] for item in test.get("properties", ())}
@@ -280,7 +280,7 @@ class Hunt:
     def __init__(self, found):
         self.programs = found
         self.locks = {program["name"]: threading.Lock() for program in found}
-        self.done, self.killers = 0, collections.Counter()
+        self.done = 0
 
     def judge(self, number, change):
         labels = set(LABELS.get(room_of(change), [room_of(change)]))

@@ -23,7 +23,7 @@ static double gain_at(knurl_scene *scene, double hz) {
     return out.height / (A * band_harmonics(0.05, hz / 1000.0));
 }
 
-/* Straight in log hz between two pairs; a tick finds it by eighths of an octave. */
+/* Straight in log hz between two pairs; a tick looks it up in a table of 16 values an octave. */
 TEST(a_gain_is_straight_in_log_frequency_between_pairs_and_constant_beyond) {
     knurl_scene *scene = even_scene(falling, COUNT_OF(falling));
     for (double hz = 100.0; hz < 480.0; hz *= 1.013) {

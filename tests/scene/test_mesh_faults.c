@@ -1,4 +1,4 @@
-/* Faults of downloaded meshes: mended or told. SPDX-License-Identifier: MIT */
+/* Faults of downloaded meshes: mended or reported. SPDX-License-Identifier: MIT */
 #include "scene/patch.h"
 
 #define K 400.0 /* N/m, the default */
@@ -190,7 +190,7 @@ TEST(a_mesh_without_uvs_is_tagged_with_three_numbers_and_no_half_cycle_is_invent
 }
 
 /* A box of 40 mm: from its top over an edge of 90 degrees, down a side, and back. Ridges along z on top; on the side
- * facing +x they are upright, and none is crossed on the way down. */
+ * facing +x they are upright, so the way down crosses no ridge. */
 TEST(ridges_of_a_box_stand_on_each_side_as_its_axes_say) {
     SCOPED_SHAPE box = shape_box((const double[3]){0.02, 0.02, 0.02}, 0);
     surface_parts parts = surface_mesh(&box);

@@ -1,4 +1,4 @@
-/* Which triangles of a mesh with normals are felt curved: what normals may be, and what is told of others.
+/* Meshes with normals: which triangles are curved, and which normals are bad and reported.
  * SPDX-License-Identifier: MIT */
 #include "scene/smooth.h"
 
@@ -60,7 +60,7 @@ TEST(normals_that_cannot_be_right_are_told_and_their_triangles_felt_flat) {
 }
 
 /* Every vertex once, so that it is the first, second or third corner of its triangles. */
-TEST(a_normal_that_is_none_is_told_at_any_corner) {
+TEST(a_zero_normal_is_reported_at_any_corner) {
     smooth_mesh m = smooth_make_sphere(1);
     for (uint32_t v = 0; v < m.s.vertex_count; v++) {
         float *normal = &m.normals[3 * (size_t)v], kept[3];
@@ -168,7 +168,7 @@ TEST(an_edge_with_split_normals_stays_an_edge) {
     smooth_free(&m);
 }
 
-/* Seen from its other side, and with the winding of one triangle reversed, a surface is the same one. */
+/* A double-sided smooth sheet has the same depth and normal line from both sides. */
 TEST(both_sides_of_a_smooth_sheet_are_one_surface) {
     smooth_mesh m = smooth_make(&smooth_patches[3], 300); /* a cylinder of 40 mm, from inside */
     surface_parts parts = smooth_surface(&m, 1);
@@ -192,7 +192,7 @@ TEST(both_sides_of_a_smooth_sheet_are_one_surface) {
     smooth_free(&m);
 }
 
-/* A smooth mesh that is moved, and shared by another surface: the same force, turned. */
+/* A smooth mesh that is moved and turned gives the same force, turned. */
 TEST(a_moved_smooth_mesh_pushes_likewise) {
     smooth_mesh m = smooth_make_sphere(2);
     surface_parts parts = smooth_surface(&m, 1);
@@ -236,7 +236,6 @@ TEST(whatever_the_normals_the_force_is_bounded) {
         for (int k = 0; k < 5000; k++) {
             if (k % 25 == 24) {
                 random_direction(&seed, velocity);
-                add3(velocity, 0.0, velocity, velocity);
             }
             for (int i = 0; i < 3; i++) {
                 const double low = i == 2 ? -0.002 : -0.025, high = i == 2 ? 0.008 : 0.025;

@@ -1,5 +1,5 @@
-/* Smooth solids that touch and intersect, with flat ones among them, against what is known of them without the library:
- * a HIP in one is held, its proxy is in none, and its force has a bound. SPDX-License-Identifier: MIT */
+/* Smooth and flat solids that touch and intersect, against their closed forms: a HIP inside a solid is held, its proxy
+ * is outside all solids, and its force has a bound. SPDX-License-Identifier: MIT */
 #include "scene/smooth.h"
 
 #include <stdio.h>
