@@ -4,17 +4,20 @@
 
 #include "contact/patch.h"
 
-/* The point for some weights, with the HIP at that point: its tangents are the changes, less the part along the
- * normal. */
-static knurl_patch_point at_weights(const knurl_patch *patch, double w1, double w2) {
+/* The patch for some weights, with the HIP at height z over its point there. Moves point to the HIP. */
+static knurl_patch_point at_height(const knurl_patch *patch, double w1, double w2, double z) {
     const double w[3] = {1.0 - w1 - w2, w1, w2}, nowhere[3] = {0.0, 0.0, 0.0};
-    knurl_patch_point at, again;
+    double hip[3];
+    knurl_patch_point at;
     knurl_patch_at(patch, w, nowhere, &at);
-    knurl_patch_at(patch, w, at.point, &again);
-    return again;
+    add3(at.point, z, at.normal, hip);
+    knurl_patch_at(patch, w, hip, &at);
+    CHECK_CLOSE(at.z, z, 1e-15);
+    memcpy(at.point, hip, sizeof hip);
+    return at;
 }
 
-TEST(tangents_are_the_differences_of_points) {
+TEST(tangents_are_the_differences_of_points_at_any_height) {
     static const double h = 1e-6;
     uint64_t seed = 3;
     for (int i = 0; i < 500; i++) {
@@ -27,10 +30,11 @@ TEST(tangents_are_the_differences_of_points) {
         }
         knurl_patch_set((const double (*)[3])corners, (const double (*)[3])normals, &patch);
         const double w1 = random_between(&seed, 0.1, 0.5), w2 = random_between(&seed, 0.1, 0.4);
-        const knurl_patch_point at = at_weights(&patch, w1, w2);
+        const double z = random_between(&seed, -0.001, 0.001); /* m: well below the radii of curvature */
+        const knurl_patch_point at = at_height(&patch, w1, w2, z);
         for (int k = 0; k < 2; k++) {
-            const knurl_patch_point more = at_weights(&patch, w1 + (k ? 0.0 : h), w2 + (k ? h : 0.0));
-            const knurl_patch_point less = at_weights(&patch, w1 - (k ? 0.0 : h), w2 - (k ? h : 0.0));
+            const knurl_patch_point more = at_height(&patch, w1 + (k ? 0.0 : h), w2 + (k ? h : 0.0), z);
+            const knurl_patch_point less = at_height(&patch, w1 - (k ? 0.0 : h), w2 - (k ? h : 0.0), z);
             double change[3];
             add3(more.point, -1.0, less.point, change);
             add3(change, -dot3(change, at.normal), at.normal, change);
