@@ -159,6 +159,7 @@ release() {
     *) echo "run: release: expected check or nothing, found '$1'" >&2; exit 2 ;;
     esac
     need_packages "${BUILD_PACKAGES[@]}" "${PYTHON_PACKAGES[@]}" dpkg-dev
+    need_python mirror-venv bindings/unity/native/requirements.txt # for api.json
     local version out log=build/package.log tried
     version=$(sed -n 's/^#define KNURL_VERSION_[A-Z]* \([0-9]*\)$/\1/p' sdk/include/knurl/base.h | paste -sd .)
     out=$PWD/build/release-$version
