@@ -199,7 +199,7 @@ static knurl_result from_plane(knurl_heap *heap, const knurl_shape_desc *d, knur
     return KNURL_OK;
 }
 
-/* Decides where the coordinates come from; leaves out what is not used. */
+/* Decides where the coordinates come from; leaves out unused attributes. */
 static const char *choose_coordinates(const knurl_shape_desc *d, knurl_mesh_desc *desc, int32_t *has_flat_uvs) {
     if (d->axis) {
         return "axis";
