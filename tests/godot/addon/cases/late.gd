@@ -3,6 +3,7 @@ extends EditorPlugin
 ## Looks, in the editor, at files that were imported before Knurl's plugin was on.
 
 var checks: RefCounted
+var imported: Array = []
 
 
 func _enter_tree() -> void:
@@ -12,16 +13,26 @@ func _enter_tree() -> void:
 
 func probe() -> void:
 	checks = load("res://addons/probe/checks.gd").new()
-	var end := Time.get_ticks_msec() + 20000
-	while count("plate_1d.glb") * count("hints.gltf") == 0 and Time.get_ticks_msec() < end:
-		await get_tree().create_timer(0.2).timeout
-	while EditorInterface.get_resource_filesystem().is_scanning():
+	var files: EditorFileSystem = EditorInterface.get_resource_filesystem()
+	var late: Array = ["res://hints.gltf", "res://plate_1d.glb"].filter(lacks_surfaces)
+	# Nothing is loaded before they are imported: loading a scene in the midst of an import fails.
+	files.resources_reimported.connect(
+		func(paths: PackedStringArray) -> void: imported.append_array(Array(paths))
+	)
+	var end := Time.get_ticks_msec() + 60000
+	while not late.all(imported.has) and Time.get_ticks_msec() < end:
 		await get_tree().process_frame
 	await get_tree().create_timer(1.0).timeout  # or more would be imported, again
+	while files.is_scanning():
+		await get_tree().process_frame
 	checks.equal(count("plate_1d.glb"), 3, "surfaces of plate_1d.glb")
 	checks.check(count("hints.gltf") > 0, "surfaces of hints.gltf")
 	checks.equal(count("off.glb"), 0, "surfaces of off.glb, whose import has them switched off")
 	checks.finish(get_tree())
+
+
+func lacks_surfaces(path: String) -> bool:
+	return not "knurl/surfaces" in FileAccess.get_file_as_string(path + ".import")
 
 
 func count(name: String) -> int:
