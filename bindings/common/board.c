@@ -52,8 +52,8 @@ uint64_t knurl_board_get_tick(const knurl_board *b) {
     return __atomic_load_n(&b->tick, __ATOMIC_ACQUIRE);
 }
 
-/* What a ring got from `begin` on, at most as much as it holds. What was overwritten while it was copied is left out,
- * and so is the slot that may be written now. */
+/* Copies a ring's entries from `begin` on, at most as many as it holds. Leaves out entries that were overwritten
+ * meanwhile and the slot that may be written now. */
 static uint32_t copy_ring(const uint64_t *written, const uint64_t *ring, uint64_t room, uint64_t begin, uint64_t end,
                           void *to) {
     unsigned char *out = to;

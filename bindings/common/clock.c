@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-/* s: steps further apart than this start anew. */
+/* s: after a longer gap between steps, the clock restarts. */
 #define LONGEST 0.1
 
 /* s: the lag of a clock whose rate is not known yet: a frame at 60 Hz. */
@@ -20,7 +20,7 @@
 #define GROWTH    0.05
 #define SHRINKING 0.02
 
-/* The share of a step by which the lag exceeds what is needed, so that it rarely has to grow. */
+/* The share of a step by which the lag exceeds the needed one, so that it rarely has to grow. */
 #define MARGIN 0.1
 
 static double now_of(const knurl_session *s) {

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-/* As many faults as a device keeps. */
+/* As many faults as a device stores. */
 enum { MOST_FAULTS = 64, BUTTONS = 32 };
 
 static int is_there(const knurl_session *s, knurl_surface_id id) {
@@ -21,7 +21,7 @@ static void touch(knurl_session *s, knurl_surface_id id) {
     }
 }
 
-/* Reads the latest tick, with zeros where the device had no position. Returns 0 if there is none yet. */
+/* Reads the last tick, with zeros if the device had no position. Returns 0 if there is none yet. */
 static int read_tick(const knurl_session *s, knurl_board_tick *sent) {
     knurl_tick_output now;
     knurl_board_read(&s->board, sent);
@@ -104,7 +104,7 @@ void knurl_session_drop_events(knurl_session *session) {
     session->overruns = session->counted_at = 0;
 }
 
-/* Reports a contact's end before the next one's start, also where changes in between were dropped. */
+/* Reports a contact's end before the next one's start, even if changes in between were dropped. */
 static int next_touch(knurl_session *s, knurl_session_event *event) {
     while (s->touch_count > 0) {
         const knurl_surface_id id = s->touches[s->first_touch];

@@ -1,4 +1,4 @@
-/* The game's own influence on the force: gain, force, vibrations, clutch. SPDX-License-Identifier: MIT */
+/* The game's control of the force: gain, force, vibrations, clutch. SPDX-License-Identifier: MIT */
 #include "parts.h"
 
 #include <string.h>

@@ -97,7 +97,7 @@ knurl_result knurl_mouse_open(knurl_mouse **mouse, knurl_device **device) {
     knurl_device_functions functions;
     knurl_device_functions_init(&functions, sizeof functions);
     functions.user = m;
-    functions.motors_known = 1; /* there are none */
+    functions.motors_known = 1; /* it has no motors */
     functions.get_info = get_info;
     functions.start = start;
     functions.read = read;

@@ -6,20 +6,20 @@
 #include <knurl/device_functions.h>
 
 typedef struct knurl_mouse {
-    /* from the game thread, atomics: a seqlock */
+    /* a seqlock: atomics, written by the game thread */
     uint64_t sequence;
     double target[3]; /* m, device frame */
-    /* the haptic thread's */
-    int is_there; /* 1: the game has moved it */
+    /* used by the haptic thread */
+    int is_there; /* 1: the game has set a position */
     double period;
     double decay; /* of the filter, a tick */
     double position[3], velocity[3];
 } knurl_mouse;
 
-/* Opens it. *mouse is the device's: it goes with that, which may be later than its close. */
+/* Opens it. *mouse is owned by the device and freed with it, possibly after its close. */
 knurl_result knurl_mouse_open(knurl_mouse **mouse, knurl_device **device);
 
-/* Where the HIP is to be, device frame. [game thread] */
+/* Sets the HIP's target, device frame. [game thread] */
 void knurl_mouse_move(knurl_mouse *m, const double position[3]);
 
 #endif

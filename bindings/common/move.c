@@ -1,14 +1,14 @@
-/* Moving surfaces of a session, and surfaces out of its reach. SPDX-License-Identifier: MIT */
+/* Moves the surfaces of a session, and finds those out of reach. SPDX-License-Identifier: MIT */
 #include "parts.h"
 
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
 
-/* m/s: what moves faster is put there, and not dragged through what it passes. */
+/* m/s: faster surfaces jump instead of moving through everything on the path. */
 #define FASTEST 10.0
 
-/* s: the time that a first move takes; further ones take what lay between the last two. */
+/* s: duration of the first move; later ones take the time between the last two. */
 #define FIRST_MOVE (1.0 / 60.0)
 #define LONGEST    0.1
 
@@ -34,7 +34,7 @@ static knurl_result fail_clock(const char *name, uint32_t clock) {
     return knurl_fail(KNURL_ERROR_ARGUMENT, "%s: expected 0 (frames) or 1 (steps), found %u", name, (unsigned)clock);
 }
 
-/* How long a move to a position takes: s; 0: a leap. *next: the way after it. */
+/* The duration of a move to a position, s; 0: a jump. *next: the state after it. */
 static double plan_move(const knurl_session *session, const knurl_session_way *way, const double position[3],
                         knurl_session_way *next) {
     const uint64_t tick = knurl_board_get_tick(&session->board);
@@ -108,7 +108,7 @@ knurl_result knurl_session_move_workspace(knurl_session *session, uint32_t clock
     return result;
 }
 
-/* 1 where some of the surface lies where the device can go. */
+/* 1 if the device can reach some of the surface. */
 static int is_in_reach(const knurl_session *s, const knurl_surface_info *info) {
     knurl_device_info limits;
     knurl_device_info_init(&limits, sizeof limits);

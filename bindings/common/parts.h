@@ -12,18 +12,18 @@
 /* Room for contact changes that the game has not fetched: twice what one update can add. */
 enum { KNURL_SESSION_TOUCHES = 128 };
 
-/* One of the engine's clocks, and how it runs against the ticks. */
+/* One of the engine's clocks, and its relation to the ticks. */
 typedef struct knurl_session_clock {
     double time;     /* s: as last set */
     double lag;      /* s: the ticks' time at which moves arrive, less this clock's */
-    double needs[2]; /* s: the longest lag needed in this window, and in the one before */
+    double needs[2]; /* s: the longest lag needed in this window and in the previous one */
     double window;   /* s: the start of this window */
     uint32_t is_told;
 } knurl_session_clock;
 
 struct knurl_session {
     uint32_t handle;                /* KNURL_HANDLE_SESSION, first */
-    knurl_session *next, *previous; /* of the process's, see life.c */
+    knurl_session *next, *previous; /* list of the process's sessions, see life.c */
     knurl_scene *scene;
     knurl_device *device; /* or null: closed */
     knurl_loop *loop;     /* or null: neither started nor played */
@@ -38,17 +38,18 @@ struct knurl_session {
     double clutch_scale;   /* of the workspace after the clutch */
     double shift[3];       /* m, workspace axes: the workspace's offset from its node, by clutches */
     knurl_session_way way; /* the workspace's; its position is its node's */
-    uint32_t runs;         /* 1: the haptic thread was started, and no update has seen its end */
-    /* collected by the latest update, for knurl_session_next_event() */
-    knurl_surface_id touches[KNURL_SESSION_TOUCHES]; /* a ring of the surfaces touched one after another; 0: none */
+    uint32_t runs;         /* 1: the haptic thread was started, and its end was not seen by an update yet */
+    /* collected by the last update, for knurl_session_next_event() */
+    knurl_surface_id
+        touches[KNURL_SESSION_TOUCHES]; /* a ring of the surfaces touched one after another; 0: no surface */
     uint32_t first_touch, touch_count;
     knurl_surface_id latest;  /* of the ring */
     knurl_surface_id touched; /* as reported */
     uint32_t buttons, told_buttons;
     double orientation[4];         /* of the stylus, device axes */
-    uint32_t faults_due;           /* how many more may be reported before the next update */
-    uint32_t has_ended;            /* 1: the run ended by itself, which is not reported yet */
-    uint64_t overruns, counted_at; /* and the tick at which they were counted */
+    uint32_t faults_due;           /* number that may still be reported before the next update */
+    uint32_t has_ended;            /* 1: the run ended by itself, not reported yet */
+    uint64_t overruns, counted_at; /* counted_at: the tick at which they were counted */
     knurl_session_clock clocks[KNURL_SESSION_CLOCKS];
     knurl_board board;
     knurl_sound *sound; /* atomic: of this run; null until knurl_session_get_sound() */
@@ -72,7 +73,7 @@ static inline knurl_result knurl_session_check_run(const knurl_session *session)
                          : knurl_fail(KNURL_ERROR_STATE, "session: expected one that runs, found one that does not");
 }
 
-/* clock.c: the timing of a move by the way's clock. Returns 0 if the engine has not set that clock in this run. */
+/* clock.c: the timing of a move by the clock of `way`. Returns 0 if the engine has not set that clock in this run. */
 int knurl_session_find_pace(const knurl_session *session, const knurl_session_way *way, knurl_session_pace *pace);
 
 /* sound.c: a knurl_tick_callback; user: the session. */

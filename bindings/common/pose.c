@@ -5,10 +5,10 @@
 #include <math.h>
 #include <string.h>
 
-/* How far an object's axes are off by rounding, relative to the longest. */
+/* The rounding error of an object's axes, relative to the longest. */
 #define ROUNDING 1e-5
 
-/* The shortest axis that is one. */
+/* Shorter axes count as zero. */
 #define LEAST 1e-9
 
 static double dot(const double a[3], const double b[3]) {
@@ -23,7 +23,7 @@ static int normalise(double v[3]) {
     return isfinite(length) && length > LEAST;
 }
 
-/* Of a right-handed rotation, by its largest part, so that nothing small is divided by. */
+/* Of a right-handed rotation. Divides by the quaternion's largest component, never by a small one. */
 void knurl_session_to_quaternion(const double r[9], double q[4]) {
     const double four[4] = {1.0 + r[0] - r[4] - r[8], 1.0 - r[0] + r[4] - r[8], 1.0 - r[0] - r[4] + r[8],
                             1.0 + r[0] + r[4] + r[8]};
@@ -44,7 +44,7 @@ void knurl_session_to_quaternion(const double r[9], double q[4]) {
     }
 }
 
-/* fmax() is a call, and this is asked twice for each surface that turns. */
+/* fmax() is a function call, and this runs twice for each rotating surface. */
 static double larger(double a, double b) {
     return b > a ? b : a;
 }
@@ -62,7 +62,7 @@ uint32_t knurl_session_same_rest(const double a[9], const double b[9]) {
     return difference <= ROUNDING * largest;
 }
 
-/* A right-handed frame of columns: x along the first, y as near to the second as may be. 0 where they have no volume.
+/* A right-handed frame of columns: x along the first, y as near to the second as possible. 0 if they have no volume.
  */
 static int make_axes(const double columns[3][3], double axes[3][3]) {
     memcpy(axes, columns, 3 * sizeof *axes);

@@ -85,11 +85,11 @@ knurl_result knurl_session_open(knurl_session *session, const knurl_session_desc
     if (is_fake && desc->stroke && desc->stroke[0]) {
         result = knurl_stroke_from_name(desc->stroke, &stroke);
     }
-    (void)knurl_device_zero_on_exit(1); /* the engine's C# recovers from null references, which are faults */
+    (void)knurl_device_zero_on_exit(1); /* 1: C# recovers from SIGSEGV, for null references */
     result = result ? result : open_device(session, device);
     if (!result) {
         session->desc = *desc;
-        session->desc.device = session->desc.stroke = NULL; /* the caller's, and looked at */
+        session->desc.device = session->desc.stroke = NULL; /* the caller's strings: already used */
         memcpy(session->way.position, desc->workspace.origin, sizeof session->way.position);
         session->is_fake = is_fake;
         session->stroke = stroke;
@@ -97,7 +97,7 @@ knurl_result knurl_session_open(knurl_session *session, const knurl_session_desc
     return result;
 }
 
-/* What a start and a play have in common: everything but the hand. */
+/* The common part of start and play: everything but the hand. */
 static knurl_result prepare(knurl_session *session) {
     if (!session->device || session->loop) {
         return knurl_fail(KNURL_ERROR_STATE, "session: expected one that is open and has not run, found one that %s",

@@ -1,8 +1,8 @@
-/* What the engine bindings share. A binding itself only converts types and axes, ties lifetimes to the engine's objects
- * and supports the editor. A session owns one device, one scene and one loop, and delivers their events once per frame.
- * Order of calls: create; add surfaces to knurl_session_get_scene(); open; (add surfaces that need a running device);
- * start; update once per frame; close; open again or destroy. All calls come from the game thread and never wait for
- * the haptic thread. Scene axes are Knurl's (right-handed, SI); bindings convert their engine's.
+/* The code shared by the engine bindings. A binding itself only converts types and axes, ties lifetimes to the engine's
+ * objects and supports the editor. A session owns one device, one scene and one loop, and delivers their events once
+ * per frame. Order of calls: create; add surfaces to knurl_session_get_scene(); open; (add surfaces that need a running
+ * device); start; update once per frame; close; open again or destroy. All calls come from the game thread and never
+ * wait for the haptic thread. Scene axes are Knurl's (right-handed, SI); bindings convert their engine's.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SESSION_H
 #define KNURL_SESSION_H
@@ -19,7 +19,7 @@ extern "C" {
 typedef struct knurl_session knurl_session;
 typedef struct knurl_sound knurl_sound;
 
-/** How many of the latest ticks a session keeps for plots. */
+/** Number of ticks that a session keeps for plots. */
 #define KNURL_SESSION_HISTORY 8192
 
 /** How a device is run. Strings are copied. */
@@ -36,10 +36,10 @@ typedef struct knurl_session_desc {
     double update_rate_hz; /**< KNURL_UPDATE_RATE_MIN to _MAX; default 1000 */
     double heartbeat_s;    /**< s without knurl_session_update() after which the force goes to zero; default 0.25;
                                 0: never */
-    knurl_workspace workspace; /**< where the device's workspace lies in the scene */
+    knurl_workspace workspace; /**< pose and scale of the device's workspace in the scene */
 } knurl_session_desc;
 
-/** What a session's run is doing, as of its latest tick. Scene axes. All zeros while nothing runs. */
+/** State of a session's run, as of its last tick. Scene axes. All zeros while nothing runs. */
 typedef struct knurl_session_state {
     double hip[3];             /**< m */
     double proxy[3];           /**< m: the point of the surface that holds the HIP */
@@ -49,20 +49,20 @@ typedef struct knurl_session_state {
     knurl_surface_id surface;  /**< of the last KNURL_SESSION_CONTACT_STARTED; 0 after its end */
     uint64_t ticks;            /**< sent since the start */
     uint64_t overruns;         /**< late ticks; counted ten times per second */
-    uint32_t buttons;          /**< bit 0: first button; as of the latest update */
+    uint32_t buttons;          /**< bit 0: first button; as of the last update */
     uint32_t running;          /**< 1: the haptic thread runs */
-    uint32_t in_contact;       /**< 1: the latest tick touched a surface, whether its event was fetched or not */
+    uint32_t in_contact;       /**< 1: the last tick touched a surface, whether its event was fetched or not */
     uint32_t paused;           /**< 1: paused by knurl_session_set_paused() */
     double velocity[3];        /**< m/s: of the HIP */
     double depth;              /**< m: of the HIP below the surface; negative among a grating's crests */
     double impulse[3];         /**< N s: all forces since the start, integrated over time. The touched object received
                                     the opposite of the difference between two reads */
-    double stylus[4];          /**< unit quaternion x, y, z, w from the stylus's axes to the scene's, as of the latest
-                                    update; zeros if the device does not measure it */
-    double ridges;             /**< ridges crossed since the start, on all surfaces */
+    double stylus[4]; /**< unit quaternion x, y, z, w from the stylus's axes to the scene's, as of the last update;
+                         zeros if the device does not measure it */
+    double ridges;    /**< ridges crossed since the start, on all surfaces */
 } knurl_session_state;
 
-/** What happened. */
+/** Kinds of events. */
 enum {
     KNURL_SESSION_CONTACT_STARTED = 1, /**< `surface` is touched; if several are, the one pressed deepest */
     KNURL_SESSION_CONTACT_ENDED = 2,   /**< `surface` is no longer the touched one, or the run ended */
@@ -78,15 +78,15 @@ typedef struct knurl_session_event {
     knurl_surface_id surface; /**< may have been removed from the scene since */
 } knurl_session_event;
 
-/** When an engine moves an object: each frame, or each physics step. */
+/** The engine's clock that an object is moved by: frames or physics steps. */
 enum { KNURL_SESSION_FRAMES = 0, KNURL_SESSION_STEPS = 1, KNURL_SESSION_CLOCKS = 2 };
 
 /** State of a surface that follows an engine's object. The binding keeps one per surface and session. Before the first
  * move of a run: `position` as the surface was added, `clock`, and zeros. */
 typedef struct knurl_session_way {
-    double position[3]; /**< m: as of the latest move */
-    uint64_t tick;      /**< of the latest move */
-    double time;        /**< s: of that clock at the latest move; used by the session */
+    double position[3]; /**< m: as of the last move */
+    uint64_t tick;      /**< of the last move */
+    double time;        /**< s: of that clock at the last move; used by the session */
     double lag;         /**< s: delay of this surface's moves; used by the session */
     uint32_t clock;     /**< KNURL_SESSION_FRAMES (default) or _STEPS: for the next move */
     uint32_t moved;     /**< 1: it has moved by that clock; used by the session */
@@ -130,14 +130,14 @@ KNURL_API knurl_loop *knurl_session_get_loop(knurl_session *session);
 KNURL_API knurl_result knurl_session_open(knurl_session *session, const knurl_session_desc *desc);
 
 /** Commits the scene if it is not committed yet, sets up its HIP and the fake hand's stroke, and starts the haptic
- * thread. warning: null, or receives a sentence on what cannot be as requested ("" if nothing), at most `size` bytes.
- * Errors: KNURL_ERROR_STATE (not open, or started before), those of knurl_scene_configure_hip(), knurl_loop_create()
- * and knurl_loop_start(); the session stays open. [game thread] */
+ * thread. warning: null, or receives a sentence on settings that cannot be honoured ("": all are), at most `size`
+ * bytes. Errors: KNURL_ERROR_STATE (not open, or started before), those of knurl_scene_configure_hip(),
+ * knurl_loop_create() and knurl_loop_start(); the session stays open. [game thread] */
 KNURL_API knurl_result knurl_session_start(knurl_session *session, char *warning, uint32_t size);
 
-/** Instead of a start: runs an open fake device along a path on this thread, as fast as possible.
+/** Instead of knurl_session_start(): runs an open fake device along a path on this thread, as fast as possible.
  * rows: t (s, ascending), x, y, z (m, scene) each, interpolated. forces: three per tick (N, scene), room for
- * `ticks` (1 to 1e8). *played: how many ticks ran. Close the session afterwards.
+ * `ticks` (1 to 1e8). *played: the number of ticks that ran. Close the session afterwards.
  * Errors: as knurl_session_start(), KNURL_ERROR_ARGUMENT, KNURL_ERROR_UNSUPPORTED (not a fake device). [game thread] */
 KNURL_API knurl_result knurl_session_play(knurl_session *session, const double *rows, uint64_t row_count,
                                           uint64_t ticks, double *forces, uint64_t *played);
@@ -168,13 +168,13 @@ KNURL_API void knurl_session_fault_text(int32_t code, double value, char *text, 
 /** Reads the state of the run. [game thread] */
 KNURL_API void knurl_session_get_state(const knurl_session *session, knurl_session_state *state);
 
-/** The latest ticks, at most KNURL_SESSION_HISTORY, oldest first: two floats each, the grating's height (m) and the
- * force along the normal (N). rows: room for `count` ticks. Returns how many there were; none while closed.
+/** The last ticks, at most KNURL_SESSION_HISTORY, oldest first: two floats each, the grating's height (m) and the
+ * force along the normal (N). rows: room for `count` ticks. Returns their number; 0 while closed.
  * [game thread] */
 KNURL_API uint32_t knurl_session_get_history(const knurl_session *session, uint32_t count, float *rows);
 
 /** Moves the HIP of the device "mouse" (scene, m). A filter smooths the steps, with a delay of 25 ms. Errors:
- * KNURL_ERROR_STATE (another device, or none), KNURL_ERROR_ARGUMENT (not finite). [game thread] */
+ * KNURL_ERROR_STATE (another device, or not running), KNURL_ERROR_ARGUMENT (not finite). [game thread] */
 KNURL_API knurl_result knurl_session_move_hip(knurl_session *session, const double position[3]);
 
 /** Moves a running session's workspace along with the engine's node, as knurl_session_move_surface() moves a surface:
@@ -186,7 +186,7 @@ KNURL_API knurl_result knurl_session_move_workspace(knurl_session *session, uint
                                                     const knurl_workspace *workspace);
 
 /** 1: clutched: zero force, and the HIP stays where it is in the scene while the hand moves the device; 0: the HIP
- * follows the hand again from where it stayed, and the force returns as after a pause. A scale set while clutched
+ * follows the hand again from there, and the force returns as after a pause. A scale set while clutched
  * applies from then on, about the HIP. Errors: KNURL_ERROR_STATE (not running). [game thread] */
 KNURL_API knurl_result knurl_session_set_clutch(knurl_session *session, uint32_t on);
 
@@ -219,15 +219,16 @@ KNURL_API void knurl_sound_release(knurl_sound *sound);
  * Errors: KNURL_ERROR_ARGUMENT. [game thread] */
 KNURL_API knurl_result knurl_session_tell_time(knurl_session *session, uint32_t clock, double seconds);
 
-/** Moves a surface along with its object. The motion ends when the next move is due by the way's clock; without that
- * clock's time it takes as many ticks as passed since the last move. Above 10 m/s the surface jumps. rotation: unit
- * quaternion. Errors: those of knurl_scene_set_transform(), KNURL_ERROR_ARGUMENT (the way's clock). [game thread] */
+/** Moves a surface along with its object. The motion ends when the next move is due by the clock of `way`; if the
+ * engine has not set that clock, it takes as many ticks as passed since the last move. Above 10 m/s the surface jumps.
+ * rotation: unit quaternion. Errors: those of knurl_scene_set_transform(), KNURL_ERROR_ARGUMENT (the way's clock).
+ * [game thread] */
 KNURL_API knurl_result knurl_session_move_surface(knurl_session *session, knurl_surface_id surface,
                                                   knurl_session_way *way, const double position[3],
                                                   const double rotation[4]);
 
 /** Why a surface of an open session cannot be felt or, after the start, cannot be felt as requested: one sentence per
- * line, "" if there is nothing to say; at most `size` bytes. [game thread] */
+ * line, "" if there are no problems; at most `size` bytes. [game thread] */
 KNURL_API void knurl_session_explain(knurl_session *session, knurl_surface_id surface, char *text, uint32_t size);
 
 /** Splits a matrix (row-major, three rows of four, the last column in m). Returns 1; or 0, with the pose untouched, if

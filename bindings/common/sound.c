@@ -1,5 +1,5 @@
 /* The sound of a session's run, shared by the session, whose haptic thread writes it, and by an engine's player, whose
- * audio thread reads it. Either may be gone first. SPDX-License-Identifier: MIT */
+ * audio thread reads it. Either may be destroyed first. SPDX-License-Identifier: MIT */
 #include "parts.h"
 
 #include <stdlib.h>

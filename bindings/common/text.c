@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Half a character at the end of a text that was cut off is none. */
+/* Removes an incomplete character at the end of a text that was cut. */
 static void trim(char *text) {
     size_t length = strlen(text);
     size_t begin = length;

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Puts the demo together: samples/godot, the add-on, the library and a tagged glTF file, in a project of their own.
+# Assembles the demo: samples/godot, the add-on, the library and a tagged glTF file, in one project.
 # usage: demo.sh LIBRARY PROJECT
 set -euo pipefail
 [ $# -eq 2 ] || { echo "usage: demo.sh LIBRARY PROJECT" >&2; exit 2; }
@@ -12,5 +12,5 @@ cp "$here"/../../samples/godot/* "$project/"
 cp "$here/../../assets/knurled_handle.glb" "$project/"
 cp -r "$here/addons/knurl" "$project/addons/"
 install -D "$library" "$project/addons/knurl/bin/$(basename "$library")"
-# What the editor writes when it first sees an extension; without it a game that was never opened there has none.
+# The editor writes this file when it first sees an extension; a game that was never opened there needs it, too.
 echo 'res://addons/knurl/knurl.gdextension' >"$project/.godot/extension_list.cfg"

@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
-# Fetches the real Godot 4 with software rendering and a virtual display into DIR/root, for the tests and the demo.
-# Debian's testing packages, downloaded by an apt of their own, which checks Debian's signatures, and unpacked: nothing
-# is installed on the host. Any Godot 4 will do; a note says if it is not the one that godot.sha256 names.
-# usage: fetch.sh DIR     Does nothing where it is there already. Exit 3: it cannot be had (no network, no apt).
+# Fetches Godot 4 with software rendering and a virtual display into DIR/root, for the tests and the demo.
+# Debian's testing packages are downloaded and unpacked by a private apt, which checks Debian's signatures: nothing is
+# installed on the host. Any Godot 4 will do; prints a note if it is not the one in godot.sha256.
+# usage: fetch.sh DIR     Does nothing if it is there already. Exit 3: not available (no network, no apt).
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 [ $# -eq 1 ] || { echo "usage: fetch.sh DIR" >&2; exit 2; }
 EXIT_SETUP=3
 PACKAGES=(godot libgl1 libglx-mesa0 libgl1-mesa-dri libegl1 libegl-mesa0 xvfb xkb-data x11-xkb-utils
     fontconfig-config fonts-dejavu-core dash coreutils)
-SUITES=(forky sid) # testing cannot be installed on some days; then the next
+SUITES=(forky sid) # testing is not installable on some days: try the next one
 PIN=$here/godot.sha256 # of Debian's 4.6.3+ds-2
 STAMP="2 ${PACKAGES[*]} $(cat "$PIN")"
 
@@ -41,11 +41,11 @@ unpack() {
             --exclude='./usr/share/doc/*' --exclude='./usr/share/locale/*' --exclude='./usr/share/man/*' \
             --exclude='./usr/share/icons/*'
     done
-    # What the packages' own scripts would have left, had they run.
+    # The files that the packages' install scripts would have made.
     printf 'root:x:0:0:root:/root:/bin/sh\n' >"$root/etc/passwd"
     printf 'root:x:0:\n' >"$root/etc/group"
     ln -sf dash "$root/usr/bin/sh"
-    cp /etc/ssl/certs/ca-certificates.crt "$root/etc/ssl/certs/" 2>/dev/null || true # else Godot prints an error
+    cp /etc/ssl/certs/ca-certificates.crt "$root/etc/ssl/certs/" 2>/dev/null || true # otherwise Godot prints an error
     install -m 755 "$here/xvfb-do" "$root/usr/bin/xvfb-do"
 }
 

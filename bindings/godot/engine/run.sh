@@ -1,18 +1,18 @@
 #!/usr/bin/env bash
-# Runs a program of what fetch.sh fetched; its exit status is the program's.
+# Runs a program that fetch.sh fetched; its exit status is the program's.
 # usage: run.sh DIR CMD ARGS...     CMD: godot, or xvfb-do godot (with a display to draw on)
-# The folder it is called from (or KNURL_GODOT_BIND, a folder above it) is seen at its own path; /tmp, /proc and /dev
-# too, else nothing of the host. Where the system allows no mounts, the host is seen and only --headless works.
+# The program sees the current folder (or KNURL_GODOT_BIND, a folder above it) at its own path, /tmp, /proc and /dev,
+# and nothing else of the host. If the system does not allow mounts, it sees the whole host and only --headless works.
 set -euo pipefail
 [ $# -ge 2 ] || { echo "usage: run.sh DIR CMD ARGS..." >&2; exit 2; }
 dir=$(cd "$1" && pwd)
 shift
 root=$dir/root
 [ -x "$root/usr/bin/godot" ] || { echo "run: there is no Godot in $dir; fetch.sh brings it" >&2; exit 3; }
-home=$dir/home # Godot's settings and caches, and not this user's
+home=$dir/home # for Godot's settings and caches, instead of this user's
 mkdir -p "$home"
 
-# Root can mount; others, where the system lets them, as root of a user namespace of their own.
+# Root can mount; other users, if the system allows it, as root of their own user namespace.
 if unshare --mount true 2>/dev/null; then
     apart=(unshare --mount)
 elif unshare --user --map-root-user --mount true 2>/dev/null; then

@@ -100,7 +100,7 @@ static void load_types(void) {
     }
 }
 
-/* Vectors of a double-precision build are twice as long, and so is what they are kept in. */
+/* Vectors of a double-precision build are twice as long, and so are the types that contain them. */
 static int is_single_precision(void) {
     unsigned char variant[64];
     unsigned char vector[64];

@@ -1,5 +1,5 @@
-/* What the binding uses of the engine: one table of interface functions, one of engine methods, and values that cross
- * the border. Everything here is for the main thread. SPDX-License-Identifier: MIT */
+/* The part of the engine's interface that the binding uses: a table of interface functions, a table of engine methods,
+ * and wrappers of its values. Everything here is for the main thread. SPDX-License-Identifier: MIT */
 #ifndef KNURL_GODOT_API_H
 #define KNURL_GODOT_API_H
 
@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-/* Interface functions: the part of their type's name that differs, and the name that they are asked for by. */
+/* Interface functions: the variable part of their type's name, and the name for get_proc_address(). */
 #define GD_FUNCTIONS(X)                                                                                                \
     X(PrintErrorWithMessage, print_error_with_message)                                                                 \
     X(PrintWarningWithMessage, print_warning_with_message)                                                             \
@@ -57,7 +57,7 @@
     X(ClassdbRegisterExtensionClassIntegerConstant, classdb_register_extension_class_integer_constant)                 \
     X(ClassdbUnregisterExtensionClass, classdb_unregister_extension_class)
 
-/* Engine methods: class, method, and the hash of its signature out of extension_api.json; all are the same in 4.3 and
+/* Engine methods: class, method, and the hash of its signature from extension_api.json; all are the same in 4.3 and
  * 4.6. */
 #define GD_METHODS(X)                                                                                                  \
     X(Object, emit_signal, 4047867050)                                                                                 \
@@ -115,7 +115,7 @@ typedef struct gd_builtins {
 #undef GD_FIELD
 } gd_builtins;
 
-/* How a type of value is made, ended, and put into a Variant and got out of it; null where nothing has to be done. */
+/* Functions that create and destroy a value of a type, and convert it to and from a Variant; null if not needed. */
 typedef struct gd_type {
     GDExtensionPtrConstructor make;
     GDExtensionPtrDestructor end;
@@ -136,7 +136,7 @@ typedef struct gd_variant {
     uint64_t opaque[3];
 } gd_variant;
 
-/* Room for a value of any type that the binding hands over. */
+/* Space for a value of any type that the binding passes. */
 typedef union gd_value {
     uint8_t boolean;
     int64_t integer;
@@ -172,7 +172,7 @@ int gd_load(GDExtensionInterfaceGetProcAddress get, GDExtensionClassLibraryPtr l
 /* Fills the other tables, once the engine has its classes: 1, or 0 with an error. */
 int gd_load_classes(void);
 
-/* Errors and warnings as the engine shows them; printf style. `where` names class and method. */
+/* Errors and warnings in the engine's log; printf style. `where` names class and method. */
 void gd_error(const char *where, const char *format, ...) KNURL_PRINTF(2, 3);
 void gd_warning(const char *where, const char *format, ...) KNURL_PRINTF(2, 3);
 
@@ -182,27 +182,27 @@ void gd_name_end(gd_name *name);
 /* Copies text into a caller's String that is initialised. */
 void gd_string_set(void *string, const char *text);
 
-/* UTF-8 out of a String, malloc'ed; null where memory is short. */
+/* UTF-8 out of a String, malloc'ed; null if memory runs out. */
 char *gd_string_copy(const void *string);
 
-/* A value of a type in a new Variant, to be ended with gd.variant_destroy(). */
+/* Wraps a value in a new Variant, to be destroyed with gd.variant_destroy(). */
 gd_variant gd_wrap(GDExtensionVariantType type, const void *value);
 
 void gd_call(GDExtensionMethodBindPtr method, GDExtensionObjectPtr object, const void *argument, void *result);
 
-/* A method that returns a reference or a container: in a Variant that holds it, to be ended. index: its argument, or
- * negative for none. */
+/* Calls a method that returns a reference or a container: in a Variant that holds it, to be destroyed. index: its
+ * argument; negative: no argument. */
 gd_variant gd_call_variant(GDExtensionMethodBindPtr method, GDExtensionObjectPtr object, int64_t index);
 
-/* A method by its name, for what is rarely called: its result in a Variant, to be ended; nil, after an error, where
- * there is none of that name. At most 3 arguments, which are left to the caller. */
+/* Calls a method by name, for rare calls. Returns its result in a Variant, to be destroyed; nil, after an error, if
+ * there is no such method. At most 3 arguments, still owned by the caller. */
 gd_variant gd_call_named(GDExtensionObjectPtr object, const char *method, const gd_variant *arguments, uint32_t count);
 
-/* Has an object's signal call another object's method, or no more. */
+/* Connects an object's signal to another object's method, or disconnects it. */
 void gd_connect(GDExtensionObjectPtr from, const char *signal, GDExtensionObjectPtr to, const char *method);
 void gd_disconnect(GDExtensionObjectPtr from, const char *signal, GDExtensionObjectPtr to, const char *method);
 
-/* Emits a signal with `count` arguments (at most 2), which are left to the caller. */
+/* Emits a signal with `count` arguments (at most 2), still owned by the caller. */
 void gd_emit(GDExtensionObjectPtr object, const char *signal, const gd_variant *arguments, uint32_t count);
 
 /* The object, if it is of that engine class, else null. */

@@ -1,5 +1,5 @@
-/* Classes as tables: properties, methods and signals in rows, registered (register.c) and served (serve.c) by one piece
- * of code. SPDX-License-Identifier: MIT */
+/* Classes as tables of properties, methods and signals: register.c registers them, serve.c handles the engine's calls.
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_GODOT_CLASSES_H
 #define KNURL_GODOT_CLASSES_H
 
@@ -15,7 +15,7 @@ typedef struct gd_instance {
     GDExtensionObjectPtr object;
 } gd_instance;
 
-/* Values travel as the engine's own call convention has them: a pointer to a bool, int64, double, float[2] or [3],
+/* Values are passed by the engine's ptrcall convention: a pointer to a bool, int64, double, float[2] or [3],
  * String, object pointer, packed array; a result is initialised. */
 typedef void (*gd_function)(void *self, const void *const *arguments, void *result);
 
@@ -25,16 +25,16 @@ typedef struct gd_argument {
     const char *class_name; /* an object's class, or an int's enum; or null */
 } gd_argument;
 
-/* A row with a name alone begins a group of the inspector. A property is kept at `offset` in the instance (a String as
- * malloc'ed UTF-8), unless it has a `get`. Without `get` it can be set; with both, `set` says how. Numbers have to be
- * finite and, where `most` is above `least`, within: above `most` only with or_greater in `hints`. */
+/* A row with only a name starts a group in the inspector. A property is stored at `offset` in the instance (a String as
+ * malloc'ed UTF-8) unless it has a `get`. With `get` and no `set` it is read-only. Numbers must be finite and, if
+ * `most` is above `least`, within that range; `hints` with or_greater allows more than `most`. */
 typedef struct gd_property {
     const char *name;
     GDExtensionVariantType type;
     size_t offset;
     double least, most, step;
-    const char *hints; /* what follows the range in the hint; the whole hint of what has no range; or null */
-    uint32_t hint;     /* PROPERTY_HINT_ of what has no range */
+    const char *hints; /* follows the range in the hint string; the whole hint string if there is no range; or null */
+    uint32_t hint;     /* PROPERTY_HINT_ of a property without a range */
     void (*get)(void *self, void *value);
     void (*set)(void *self, const void *value);
     void (*changed)(void *self); /* or null */
@@ -42,7 +42,7 @@ typedef struct gd_property {
 
 typedef struct gd_method_row {
     const char *name;
-    GDExtensionVariantType result; /* NIL: none */
+    GDExtensionVariantType result; /* NIL: void */
     const char *result_class;      /* as of an argument */
     gd_function call;
     uint32_t argument_count;
@@ -55,7 +55,7 @@ typedef struct gd_signal_row {
     gd_argument arguments[2];
 } gd_signal_row;
 
-/* A named number; of one enum's, one after another. */
+/* A named number; those of an enum are consecutive. */
 typedef struct gd_constant_row {
     const char *of, *name;
     int64_t value;

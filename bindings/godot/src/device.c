@@ -62,7 +62,7 @@ static knurl_result take_slot(device *d) {
     return knurl_fail(KNURL_ERROR_FULL, "expected at most %d devices that run at once", DEVICE_SLOTS);
 }
 
-/* Where the node stands, the workspace is; its scale is a property, not the node's. */
+/* The workspace has the node's pose, but its own scale: the property workspace_scale. */
 static knurl_result place(const device *d, knurl_workspace *to) {
     knurl_session_pose at;
     if (!node_pose(d->base.object, &at)) {
@@ -198,7 +198,7 @@ int64_t device_start(device *d) {
     return OK;
 }
 
-/* A start by autostart. Of several failures in a row the first is reported, as an error and a signal. */
+/* A start by autostart. Only the first of several failures in a row is reported, as an error and a signal. */
 static void start_by_itself(device *d) {
     char text[1024];
     char warning[512] = "";
@@ -241,11 +241,11 @@ void device_leave(device *d) {
 
 void device_stop(device *d) {
     device_end(d);
-    signals_tell_ends(); /* last: a handler finds a device that is stopped, and may start or free it */
+    signals_tell_ends(); /* last: handlers find a stopped device, and may start or free it */
 }
 
-/* The engine's clocks; delta: s of the game's time since the last frame. A time scale changes how much of the game's
- * time a frame or a step is, not when it comes. */
+/* The engine's clocks; delta: s of the game's time since the last frame. A time scale changes the game time of a frame
+ * or a step, not the moment when it happens. */
 static void set_clocks(device *d, double delta) {
     double scale = 1.0;
     int64_t steps = 0;
@@ -285,7 +285,7 @@ static void react(device *d, const knurl_session_state *state) {
     memcpy(d->impulse, state->impulse, sizeof d->impulse);
 }
 
-/* A node that is scaled to nothing leaves the workspace where it is. */
+/* If the node's scale is zero, the workspace stays in place. */
 void device_move_workspace(device *d) {
     knurl_workspace to;
     if (d->moved && !place(d, &to) &&

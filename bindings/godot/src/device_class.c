@@ -63,7 +63,7 @@ static void explain_anew(void *self) {
 
 static void change_scale(void *self) {
     device *d = self;
-    d->moved = 1; /* applied in the next frame, as the node's moves are */
+    d->moved = 1; /* applied in the next frame, like the node's moves */
     explain_anew(d);
 }
 
@@ -81,7 +81,7 @@ static void change_force(void *self) {
 static void change_clutch(void *self) {
     device *d = self;
     if (d->runs && !d->is_leaving) {
-        device_move_workspace(d); /* a scale that was set while the clutch was on is one about the HIP */
+        device_move_workspace(d); /* a scale set while the clutch is on zooms about the HIP */
         (void)knurl_session_set_clutch(d->session, d->clutch);
     }
 }
@@ -123,8 +123,8 @@ static void unplace(const device *d) {
     }
 }
 
-/* In a game. It starts in its first frame, when all of the scene is there; one that was put elsewhere within a frame
- * goes on. */
+/* Only in a game. It starts in its first frame, when the scene is complete; a device that was reparented within a frame
+ * keeps running. */
 static void enter(device *d) {
     d->has_failed = 0;
     d->retries_in = 0.0;
@@ -195,7 +195,7 @@ static void give_vector(const double *from, void *to) {
     memcpy(to, vector, sizeof vector);
 }
 
-/* Before the first tick, the HIP stands where the workspace does. */
+/* Before the first tick, the HIP is at the workspace's origin. */
 static void get_hip_position(void *self, void *value) {
     const device *d = self;
     const knurl_session_state state = look(d);
@@ -243,7 +243,7 @@ static void get_buttons(void *self, void *value) {
     *(int64_t *)value = (int64_t)look(self).buttons;
 }
 
-/* The identity where the device does not measure it. */
+/* The identity if the device does not measure it. */
 static void get_stylus_rotation(void *self, void *value) {
     const knurl_session_state state = look(self);
     const double *q = state.stylus;
@@ -336,7 +336,7 @@ static void get_history(void *self, const void *const *arguments, void *result) 
     }
 }
 
-/* A path on the disk of one in the project; to be freed, or null. */
+/* Converts a project path to a path on disk; the caller frees it. Null: out of memory. */
 static char *globalise(const void *path) {
     gd_name name = gd_name_new("ProjectSettings");
     gd_string global;
@@ -404,7 +404,7 @@ static const gd_property properties[] = {
     {"rate", FLOAT, offsetof(device, rate), 100.0, 10000.0, 1.0, "suffix:Hz", 0, NULL, NULL, explain_anew},
     {"retry", FLOAT, offsetof(device, retry), 0.0, 60.0, 0.1, "or_greater,suffix:s", 0, NULL, NULL, NULL},
     {.name = "reconnect", .type = BOOL, .offset = offsetof(device, reconnect)},
-    {.name = "State"}, /* of a game that runs */
+    {.name = "State"}, /* of a running game */
     {.name = "hip_position", .type = VECTOR3, .get = get_hip_position},
     {.name = "proxy_position", .type = VECTOR3, .get = get_proxy_position},
     {.name = "force", .type = VECTOR3, .get = get_force},

@@ -1,4 +1,4 @@
-/* Where the engine comes in. SPDX-License-Identifier: MIT */
+/* Entry point of the extension. SPDX-License-Identifier: MIT */
 #include "device.h"
 #include "register.h"
 #include "signals.h"
@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-/* The class reference, made of doc_classes/ when this was built: an XML document each, and null. */
+/* The class reference, embedded from doc_classes/ by the build: XML documents, ended by null. */
 extern const char *const knurl_godot_documents[];
 
 static const gd_class *const classes[] = {&grating_class,      &surface_class,        &device_class,

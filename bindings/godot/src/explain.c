@@ -1,4 +1,4 @@
-/* Why surfaces cannot be felt, or not as asked for. SPDX-License-Identifier: MIT */
+/* Warnings of surfaces that cannot be felt, or differ from their settings. SPDX-License-Identifier: MIT */
 #include "explain.h"
 
 #include "geometry.h"
@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Most surfaces checked, and most warnings printed, when a device starts. */
+/* Limits on surfaces checked and warnings printed when a device starts. */
 enum { MOST_LOOKED_AT = 1000, MOST_WARNINGS = 8 };
 
 /* Start of knurl_session_explain()'s line for a surface out of reach (common/move.c). */
@@ -46,7 +46,7 @@ static void say_bends(GDExtensionObjectPtr parent, char *text, size_t size) {
     }
 }
 
-/* How far a surface stands off the node that is drawn, and whether it is turned or scaled against it. */
+/* Reports the distance, rotation and scale between a surface and the node that is drawn. */
 static void say_away(const surface *s, char *text, size_t size) {
     gd_transform t;
     char sentence[192];
@@ -200,7 +200,7 @@ void explain_device(const device *d, char *text, size_t size) {
     }
 }
 
-/* 1 the first time that a line is told of a node of that name. After 512 lines nothing is new. */
+/* 1 the first time that a line is reported for a node of that name. After 512 lines always 0. */
 static int is_new(const char *name, const char *line, int length) {
     static uint64_t told[512];
     static int count;

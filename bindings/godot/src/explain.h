@@ -1,19 +1,19 @@
-/* Why surfaces cannot be felt, or not as asked for. SPDX-License-Identifier: MIT */
+/* Warnings of surfaces that cannot be felt, or differ from their settings. SPDX-License-Identifier: MIT */
 #ifndef KNURL_GODOT_EXPLAIN_H
 #define KNURL_GODOT_EXPLAIN_H
 
 #include "world.h"
 
-/* A line each, in a caller's buffer; "" where all is well. In the editor: what the devices that stand in the tree would
- * say, by their presets; in a game: what those that run do say, or only `only`, unless it is null. */
+/* One line per warning, in a caller's buffer; "" if there are no problems. In the editor by the limits of the devices
+ * in the tree, from their presets; in a game by those of the running devices, or of `only` alone if it is not null. */
 void explain_surface(surface *s, const device *only, char *text, size_t size);
 
-/* The same of a device. */
+/* The same for a device. */
 void explain_device(const device *d, char *text, size_t size);
 
-/* When a device starts: warns of everything that it does not play as asked for; only of the first few, and of each once
- * per process, because games start their devices in scene after scene. Most surfaces of a game are out of its reach, so
- * it warns of those only if all are. */
+/* Called when a device starts: warns of surfaces that it cannot render by their settings; only of the first few, and of
+ * each once per process, because games start their devices again in each scene. Most surfaces of a game are out of
+ * reach, so it warns of those only if all are. */
 void explain_start(const device *d);
 
 #endif

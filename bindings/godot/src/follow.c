@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* So many errors are told a frame; of the rest, how many there are. */
+/* Errors logged per frame; the rest are only counted. */
 enum { MOST_ERRORS = 3 };
 
 static void complain(device *d, surface *s) {
@@ -43,7 +43,8 @@ static void keep_rotation(surface_placement *placement, const gd_transform *tran
     memcpy(placement->quaternion, quaternion, sizeof placement->quaternion);
 }
 
-/* It could not be put into the scene. An empty CSG shape or grid map is tried again in each frame. */
+/* Handles a surface that could not be added to the scene. An empty CSG shape or grid map is tried again in each frame.
+ */
 static void refuse(device *d, surface *s, knurl_result why) {
     const int may_come = why == KNURL_ERROR_STATE && geometry_is_made_later(surface_parent(s));
     if (!may_come || s->tries + 1 == TRIES) {
@@ -105,8 +106,8 @@ void follow_remove(device *d, surface *s) {
     }
 }
 
-/* Finds where the node stands. Returns 0 where the surface has to be put there anew: its scale has changed, or there is
- * none. Most moves keep the basis, and with it rotation and scale: splitting it would be a third of a move's cost. */
+/* Finds the node's pose. Returns 0 if the surface must be added again, because its scale has changed or is zero. Most
+ * moves keep the basis, and with it rotation and scale: splitting it would be a third of a move's cost. */
 static int follow_node(surface_placement *placement, const gd_transform *transform, double position[3]) {
     knurl_session_pose at;
     int is_same = 1;

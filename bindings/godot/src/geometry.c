@@ -67,7 +67,7 @@ int geometry_is_made_later(GDExtensionObjectPtr node) {
     return gd_cast(node, "CSGShape3D") || gd_cast(node, "GridMap");
 }
 
-/* CSGShape3D and GridMap: get_meshes() has a Transform3D and a Mesh in turn. */
+/* CSGShape3D and GridMap: get_meshes() alternates between a Transform3D and a Mesh. */
 static int read_pairs(GDExtensionObjectPtr node, const double baked[9], mesh_data *data) {
     uint64_t array;
     int64_t size = 0;
@@ -126,7 +126,7 @@ static int read_shape(GDExtensionObjectPtr shape, const mesh_place *place, mesh_
     return fits;
 }
 
-/* A node's shape or multimesh, in a Variant that holds it: to be ended. */
+/* A node's shape or multimesh, in a Variant that holds it: to be destroyed. */
 static GDExtensionObjectPtr resource_of(GDExtensionObjectPtr node, const char *getter, gd_variant *held) {
     *held = gd_call_named(node, getter, NULL, 0);
     return object_in(held);

@@ -15,12 +15,12 @@ typedef struct grating {
     double friction;
     double orientation;  /* rad */
     int64_t method;      /* KNURL_METHOD_DEFAULT, KNURL_METHOD_S1, ... */
-    uint64_t changed_at; /* grating_changes at its latest change */
+    uint64_t changed_at; /* grating_changes at its last change */
 } grating;
 
 extern const gd_class grating_class;
 
-/* Counts changes of all gratings: a reader that has seen this number need not look at them. */
+/* Counts changes of all gratings: if it is unchanged, so are they. */
 extern uint64_t grating_changes;
 
 void grating_describe(const grating *g, knurl_material_desc *material);

@@ -7,9 +7,9 @@
 enum { ARRAY_VERTEX = 0, ARRAY_TANGENT = 2, ARRAY_TEX_UV = 4, ARRAY_INDEX = 12, ARRAY_MAX = 13 };
 enum { PRIMITIVE_TRIANGLES = 3 };
 
-/* A packed array out of an Array of arrays; nothing where it is another type. */
+/* A packed array from an Array of arrays; empty if it is of another type. */
 typedef struct packed {
-    GDExtensionVariantType type; /* NIL: nothing */
+    GDExtensionVariantType type; /* NIL: empty */
     uint64_t opaque[2];
     int64_t size;
 } packed;
@@ -52,7 +52,7 @@ static double determinant(const double m[9]) {
     return m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6]) + m[2] * (m[3] * m[7] - m[4] * m[6]);
 }
 
-/* Copied as they are where nothing is baked: Knurl sees the very floats that the engine draws. */
+/* Copied unchanged if no matrix is baked in: Knurl gets the same floats that the engine draws. */
 static void add_positions(const float *from, uint32_t count, const mesh_place *place, mesh_data *data) {
     static const mesh_place identity = {{1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 0, 0}};
     float *to = data->positions + 3 * (size_t)data->vertex_count;
@@ -72,7 +72,7 @@ static void add_positions(const float *from, uint32_t count, const mesh_place *p
     }
 }
 
-/* Four floats a vertex, or doubles, as some meshes have them. */
+/* Four floats per vertex; doubles in some meshes. */
 static void add_tangents(const void *arrays, uint32_t count, const double baked[9], mesh_data *data) {
     packed singles = take(arrays, ARRAY_TANGENT, GDEXTENSION_VARIANT_TYPE_PACKED_FLOAT32_ARRAY,
                           gd_builtin.PACKED_FLOAT32_ARRAY_size);
@@ -110,7 +110,8 @@ static void add_uvs(const void *arrays, uint32_t count, mesh_data *data) {
     end(&uvs);
 }
 
-/* Which corner stands at place `i`: the engine's front faces are clockwise, unless a mirror is baked in. */
+/* The index of corner `i` after the winding is reversed: the engine's front faces are clockwise, unless a mirror is
+ * baked in. */
 static uint64_t turned(uint64_t i, int is_mirrored) {
     const uint64_t corner = i % 3;
     return is_mirrored || corner == 0 ? i : corner == 1 ? i + 1 : i - 1;
@@ -160,7 +161,7 @@ static int add_surface(const void *arrays, const mesh_place *place, mesh_data *d
     return fits;
 }
 
-/* Lines, points and strips have no triangles of their own; meshes that are no ArrayMesh are made of triangles. */
+/* Lines, points and strips have no triangles of their own; meshes other than ArrayMesh consist of triangles. */
 static int has_triangles(GDExtensionObjectPtr array_mesh, int64_t index) {
     int64_t primitive = PRIMITIVE_TRIANGLES;
     if (array_mesh) {
@@ -174,7 +175,7 @@ void mesh_begin(mesh_data *data) {
     data->has_tangents = data->has_uvs = 1;
 }
 
-/* As a surface's arrays with nothing but positions. */
+/* Like a surface's arrays with positions only. */
 int mesh_add_faces(const void *corners, const mesh_place *place, mesh_data *data) {
     const int is_mirrored = determinant(place->matrix) < 0.0;
     int64_t size = 0;

@@ -1,4 +1,4 @@
-/* An engine's mesh in Knurl's shape. SPDX-License-Identifier: MIT */
+/* An engine's mesh, converted for Knurl. SPDX-License-Identifier: MIT */
 #ifndef KNURL_GODOT_MESH_H
 #define KNURL_GODOT_MESH_H
 
@@ -16,19 +16,19 @@ typedef struct mesh_data {
     int has_tangents, has_uvs; /* 1: every surface of the mesh has them */
 } mesh_data;
 
-/* Where a mesh stands in what it is read into: at matrix * position + offset. */
+/* A mesh's pose in the data that it is read into: matrix * position + offset. */
 typedef struct mesh_place {
     double matrix[9]; /* row-major */
     double offset[3]; /* m */
 } mesh_place;
 
-/* Begins with nothing; to be ended. */
+/* Starts empty; end it with mesh_end(). */
 void mesh_begin(mesh_data *data);
 
-/* Adds all surfaces of triangles, counter-clockwise in front. 1, or 0 where memory is short. */
+/* Adds all surfaces of triangles, counter-clockwise in front. Returns 1, or 0 if memory runs out. */
 int mesh_add(GDExtensionObjectPtr mesh, const mesh_place *place, mesh_data *data);
 
-/* Adds triangles: corners one after another in a PackedVector3Array. 1, or 0 where memory is short. */
+/* Adds triangles: corners one after another in a PackedVector3Array. Returns 1, or 0 if memory runs out. */
 int mesh_add_faces(const void *corners, const mesh_place *place, mesh_data *data);
 void mesh_end(mesh_data *data);
 

@@ -1,5 +1,5 @@
-/* Warnings in the editor, where no device runs: the surface in a scene of its own, checked against a simulated
- * device with the real one's limits. For the editor. SPDX-License-Identifier: MIT */
+/* Warnings in the editor, without a running device: adds the surface to a scene of its own and checks it against a
+ * simulated device with the real one's limits. SPDX-License-Identifier: MIT */
 #include "preview.h"
 
 #include "geometry.h"
@@ -17,7 +17,7 @@ static uint64_t hash(uint64_t seed, const void *data, size_t size) { /* FNV-1a *
     return seed;
 }
 
-/* Of everything that an explanation depends on; not 0. */
+/* A hash of everything that an explanation depends on; not 0. */
 static uint64_t key_of(const surface *s, const knurl_session_pose *at) {
     knurl_material_desc material;
     knurl_session_pose place;
@@ -41,7 +41,7 @@ static uint64_t key_of(const surface *s, const knurl_session_pose *at) {
     return key ? key : 1;
 }
 
-/* The URI of a simulated device with the same limits; null where they are unknown. */
+/* The URI of a simulated device with the same limits; null if they are unknown. */
 static const char *preset_of(const device *d) {
     const char *uri = d->uri ? d->uri : "";
     if (strncmp(uri, "fake", 4) == 0) {
@@ -71,7 +71,7 @@ static knurl_result hold_against(const device *d, const char *preset, knurl_sess
     return result ? result : knurl_session_play(session, row, 1, 1, force, &played);
 }
 
-/* With a device, or without one (null). Returns 0 where it cannot be felt at all. */
+/* device: may be null. Returns 0 if the surface cannot be felt at all. */
 static int explain(surface *s, const knurl_session_pose *at, const device *d, char *text, size_t size) {
     char name[128];
     char why[2048] = "";
@@ -110,6 +110,7 @@ void preview_surface(surface *s, const knurl_session_pose *at, char *text, size_
         }
     }
     warnings_keep(s, text);
-    const int may_change = !can_be_felt && geometry_is_made_later(surface_parent(s)); /* and nothing tells of it */
+    const int may_change =
+        !can_be_felt && geometry_is_made_later(surface_parent(s)); /* and there is no signal for it */
     s->explained = s->explanation && !may_change ? key : 0;
 }

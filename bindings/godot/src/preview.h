@@ -4,7 +4,7 @@
 
 #include "world.h"
 
-/* Lines in a caller's buffer, "" where all is well; the same as it was told last, where nothing has changed since. */
+/* Lines in a caller's buffer, "" if there are no problems. Cached until something changes. */
 void preview_surface(surface *s, const knurl_session_pose *at, char *text, size_t size);
 
 #endif

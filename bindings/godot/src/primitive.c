@@ -6,7 +6,7 @@ typedef struct dimension {
     double factor;
 } dimension;
 
-/* Shapes that the engine has a mesh of, and what the mesh's properties are. */
+/* Shapes that the engine has a mesh for, and the mesh's properties. */
 static const struct {
     const char *shape, *mesh;
     dimension dimensions[3];
@@ -41,7 +41,7 @@ static gd_variant wrap_text(const char *text) {
     return made;
 }
 
-/* factor 0: a value of any type, as it is. */
+/* factor 0: copies a value of any type unchanged. */
 static void copy_dimension(GDExtensionObjectPtr shape, GDExtensionObjectPtr mesh, const dimension *d) {
     gd_variant from = wrap_text(d->from);
     gd_variant arguments[2] = {wrap_text(d->to), gd_call_named(shape, "get", &from, 1)};

@@ -8,7 +8,7 @@
 /* 1: the shape (or null) is one of these. */
 int primitive_is_known(GDExtensionObjectPtr shape);
 
-/* A new mesh of a shape that is known, in a Variant that holds it: to be ended. */
+/* A new mesh of a known shape, in a Variant that holds it: to be destroyed. */
 GDExtensionObjectPtr primitive_mesh(GDExtensionObjectPtr shape, gd_variant *held);
 
 #endif

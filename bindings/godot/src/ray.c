@@ -1,4 +1,4 @@
-/* KnurlDevice.cast_ray(): what a straight line goes through first. SPDX-License-Identifier: MIT */
+/* KnurlDevice.cast_ray(): the first hit of a line segment. SPDX-License-Identifier: MIT */
 #include "ray.h"
 
 #include "device.h"

@@ -1,4 +1,4 @@
-/* Tells the engine of the classes in the tables. SPDX-License-Identifier: MIT */
+/* Registers the classes of the tables with the engine. SPDX-License-Identifier: MIT */
 #include "register.h"
 
 #include "serve.h"
@@ -8,7 +8,7 @@
 
 enum { USAGE_DEFAULT = 6, USAGE_SHOWN_ONLY = 4 | 268435456 /* EDITOR, READ_ONLY */, USAGE_IS_ENUM = 65536 };
 
-/* A property's description and what it points to. */
+/* A property's description and the values that it points to. */
 typedef struct description {
     gd_name name, class_name;
     gd_string hint;
@@ -82,8 +82,8 @@ static void register_method(const gd_class *class, const method_entry *entry) {
     gd_name_end(&class_name);
 }
 
-/* What a property holds: an object of the class that its hint names, or a number of the class's enum that is called
- * like it. text: the enum's name, at least 64 bytes. */
+/* The class of a property's value: the object class in its hint, or the class's enum with the property's name. text:
+ * the enum's name, at least 64 bytes. */
 static const char *class_of(const gd_class *class, const gd_property *property, char *text) {
     if (property->hint == GD_HINT_RESOURCE_TYPE) {
         return property->hints;

@@ -1,4 +1,4 @@
-/* Tells the engine of classes. SPDX-License-Identifier: MIT */
+/* Registers classes with the engine. SPDX-License-Identifier: MIT */
 #ifndef KNURL_GODOT_REGISTER_H
 #define KNURL_GODOT_REGISTER_H
 

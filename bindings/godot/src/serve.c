@@ -1,4 +1,4 @@
-/* Serves instances, properties and methods of the tables; how they are registered is in register.c.
+/* Handles the engine's calls of instances, properties and methods of the tables; see register.c for their registration.
  * SPDX-License-Identifier: MIT */
 #include "serve.h"
 
@@ -107,7 +107,7 @@ void gd_property_get(void *self, const gd_property *property, void *result) {
     }
 }
 
-/* A number of the value; 1 while there is one. */
+/* Component `index` of a numeric value. Returns 1 if it exists. */
 static int number_at(const gd_property *property, const void *value, int index, double *number) {
     const int vector = property->type == GDEXTENSION_VARIANT_TYPE_VECTOR3   ? 3
                        : property->type == GDEXTENSION_VARIANT_TYPE_VECTOR2 ? 2
@@ -197,7 +197,7 @@ static void end_value(GDExtensionVariantType type, gd_value *value) {
     }
 }
 
-/* Puts a result into a new Variant and ends it. An object among results is a reference that is held. */
+/* Moves a result into a new Variant. An object is returned with a reference. */
 static void give_result(GDExtensionVariantType type, gd_value *value, GDExtensionVariantPtr to) {
     if (type == GDEXTENSION_VARIANT_TYPE_NIL) {
         gd.variant_new_nil(to);
@@ -206,7 +206,8 @@ static void give_result(GDExtensionVariantType type, gd_value *value, GDExtensio
     gd_types[type].to_variant(to, value);
     if (type == GDEXTENSION_VARIANT_TYPE_OBJECT && gd_cast(value->object, "RefCounted")) {
         uint8_t was_last;
-        gd_call(gd_method.RefCounted_unreference, value->object, NULL, &was_last); /* the Variant holds one now */
+        gd_call(gd_method.RefCounted_unreference, value->object, NULL,
+                &was_last); /* the Variant holds a reference now */
     }
     end_value(type, value);
 }

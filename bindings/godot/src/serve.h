@@ -1,14 +1,15 @@
-/* Serves instances of classes. SPDX-License-Identifier: MIT */
+/* Handles the engine's calls of class instances. SPDX-License-Identifier: MIT */
 #ifndef KNURL_GODOT_SERVE_H
 #define KNURL_GODOT_SERVE_H
 
 #include "classes.h"
 
-/* The instance of that class behind an object, or null; by the class's name for files that depend on no class. */
+/* The instance of that class behind an object, or null; found by the class's name, so that this file depends on no
+ * class. */
 void *gd_instance_of(GDExtensionObjectPtr object, const gd_class *class);
 void *gd_instance_named(GDExtensionObjectPtr object, const char *class_name);
 
-/* What the engine calls of an instance; class_userdata is the gd_class. */
+/* Callbacks of an instance; class_userdata is the gd_class. */
 GDExtensionObjectPtr gd_create(void *class_userdata);
 void gd_free(void *class_userdata, GDExtensionClassInstancePtr instance);
 void gd_notify(GDExtensionClassInstancePtr instance, int32_t what, GDExtensionBool reversed);
@@ -17,7 +18,7 @@ GDExtensionClassCallVirtual gd_find_virtual(void *class_userdata, GDExtensionCon
 void gd_property_get(void *self, const gd_property *property, void *result);
 void gd_property_set(void *self, const gd_property *property, const void *value);
 
-/* What the engine calls of a method, by Variants and by pointers; `row` is a gd_method_row or a gd_property. */
+/* Callbacks of a method, with Variants and with pointers; `row` is a gd_method_row or a gd_property. */
 #define GD_CALL(name)                                                                                                  \
     void name(void *row, GDExtensionClassInstancePtr self, const GDExtensionConstVariantPtr *arguments,                \
               GDExtensionInt count, GDExtensionVariantPtr result, GDExtensionCallError *error)

@@ -1,14 +1,14 @@
-/* Signals of a KnurlDevice: what happened since the last frame. SPDX-License-Identifier: MIT */
+/* Signals of a KnurlDevice: events since the last frame. SPDX-License-Identifier: MIT */
 #include "signals.h"
 
 #include "serve.h"
 
 #include <stdlib.h>
 
-/* Contacts that ended and were not told yet, oldest first. */
+/* Ended contacts that were not emitted yet, oldest first. */
 typedef struct ending {
     struct ending *next;
-    GDObjectInstanceID device, surface; /* surface: 0: one of a file */
+    GDObjectInstanceID device, surface; /* surface: 0 if from a file */
 } ending;
 
 static ending *endings, **last_ending = &endings;
@@ -130,7 +130,7 @@ int signals_tell(GDObjectInstanceID id) {
             start_contact(d, event.surface);
             break;
         case KNURL_SESSION_CONTACT_ENDED:
-            if (event.surface == d->touched) { /* else it was told when its node left */
+            if (event.surface == d->touched) { /* otherwise it was emitted when its node left */
                 signals_end_contact(d);
                 signals_tell_ends();
             }
@@ -141,7 +141,7 @@ int signals_tell(GDObjectInstanceID id) {
         case KNURL_SESSION_FAULT:
             tell_fault(d, &event);
             break;
-        default: /* it has ended */
+        default: /* the run has ended */
             return 1;
         }
     }
@@ -215,7 +215,7 @@ void signals_begin(void (*tell_news)(GDObjectInstanceID id)) {
     teller = gd_create(gd_unconst(&teller_class));
 }
 
-/* The engine skips messages to an object that is no more. */
+/* The engine skips messages to freed objects. */
 void signals_end(void) {
     if (teller) {
         gd.object_destroy(teller);

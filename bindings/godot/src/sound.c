@@ -4,12 +4,13 @@
 
 #include "serve.h"
 
-/* The node below the device that plays, the game's or ours. */
+/* The child node of the device that plays the sound, the game's or ours. */
 #define PLAYER "Sound"
 
 typedef struct sound_user {
     gd_instance base;
-    knurl_sound *sound; /* or null: silence. A stream gives it to its first playback: two would each get half of it */
+    knurl_sound
+        *sound; /* or null: silence. Only a stream's first playback gets it: two would get half of the samples each */
     uint32_t is_playing;
 } sound_user;
 
@@ -55,7 +56,7 @@ static void is_playing(GDExtensionClassInstancePtr self, const GDExtensionConstT
     *(uint8_t *)result = __atomic_load_n(&((sound_user *)self)->is_playing, __ATOMIC_ACQUIRE) != 0;
 }
 
-/* Both channels get the same. */
+/* Both channels get the same samples. */
 static void mix(GDExtensionClassInstancePtr self, const GDExtensionConstTypePtr *arguments, GDExtensionTypePtr result) {
     enum { CHUNK = 256 };
     float mono[CHUNK] = {0.0F};

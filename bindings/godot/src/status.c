@@ -1,4 +1,4 @@
-/* KnurlDevice.get_status(): everything that counts, in one Dictionary. SPDX-License-Identifier: MIT */
+/* KnurlDevice.get_status(): all counters in one Dictionary. SPDX-License-Identifier: MIT */
 #include "status.h"
 
 #include <knurl/device.h>

@@ -118,7 +118,7 @@ static void update_mesh(void *self, const void *const *arguments, void *result) 
     surface *s = self;
     (void)arguments;
     (void)result;
-    unwatch_mesh(s); /* it may be another one */
+    unwatch_mesh(s); /* the parent may have changed */
     s->meshes_seen++;
     if (gd_is_in_editor()) {
         watch_mesh(s);
@@ -139,7 +139,7 @@ static void enter(surface *s) {
     gd_call(gd_method.Node3D_set_notify_transform, s->base.object, &notify, NULL);
 }
 
-/* Removes it from all scenes and from the list; contacts that end are told later. */
+/* Removes it from all scenes and from the list; the ends of contacts are emitted later. */
 static void remove_now(surface *s) {
     const GDObjectInstanceID id = gd.object_get_instance_id(s->base.object);
     for (int i = 0; i < DEVICE_SLOTS; i++) {
@@ -154,8 +154,8 @@ static void remove_now(surface *s) {
     surface_unlist(s);
 }
 
-/* A surface that is reparented leaves the tree and enters it again within a frame, so it is removed in the next frame;
- * at once only where it is being freed. */
+/* A surface that is reparented leaves the tree and enters it again within a frame, so it is removed in the next frame,
+ * or immediately if it is being freed. */
 static void leave(surface *s) {
     unwatch_mesh(s);
     if (s->is_dying || !follow_is_felt(s)) {

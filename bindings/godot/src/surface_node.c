@@ -1,4 +1,4 @@
-/* A surface as its nodes have it. SPDX-License-Identifier: MIT */
+/* The data that a surface takes from its nodes. SPDX-License-Identifier: MIT */
 #include "surface_node.h"
 
 #include "geometry.h"
@@ -56,7 +56,7 @@ knurl_result surface_put(surface *s, knurl_scene *scene, const knurl_session_pos
     desc.coordinates = s->box_coordinates ? KNURL_COORDINATES_BOX : KNURL_COORDINATES_AUTO;
     memcpy(desc.position, at->position, sizeof desc.position);
     memcpy(desc.rotation, at->quaternion, sizeof desc.rotation);
-    for (int i = 0; i < 3; i++) { /* the axis is the mesh's: scaled like it */
+    for (int i = 0; i < 3; i++) { /* the axis is in the mesh's axes: scaled like the mesh */
         float axis = 0.0F;
         for (int j = 0; j < 3; j++) {
             axis += (float)at->rest[3 * i + j] * s->axis[j];

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* *forces: to be freed in any case. */
+/* The caller always frees *forces. */
 static knurl_result play(device *d, const void *rows, int64_t ticks, double **forces, uint64_t *played) {
     if (d->runs) {
         return knurl_fail(KNURL_ERROR_STATE, "expected a device that is stopped, found one that runs");

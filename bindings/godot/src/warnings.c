@@ -1,4 +1,4 @@
-/* Warnings: kept with their surface, and given to the editor. SPDX-License-Identifier: MIT */
+/* Warnings: stored with their surface, and passed to the editor. SPDX-License-Identifier: MIT */
 #include "warnings.h"
 
 #include <stdlib.h>

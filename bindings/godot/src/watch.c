@@ -1,4 +1,5 @@
-/* A MeshInstance3D tells when it gets another mesh, and a mesh when it changes. SPDX-License-Identifier: MIT */
+/* Connects the signals of a MeshInstance3D and its mesh that report another or a changed mesh. SPDX-License-Identifier:
+ * MIT */
 #include "watch.h"
 
 #include "geometry.h"

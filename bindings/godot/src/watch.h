@@ -4,8 +4,8 @@
 
 #include "world.h"
 
-/* From now on the surface's update_mesh() is called when its parent gets another mesh or the mesh changes, or no more.
- * Twice is fine. */
+/* Starts or stops calling the surface's update_mesh() when its parent gets another mesh or the mesh changes. May be
+ * repeated. */
 void watch_mesh(surface *s);
 void unwatch_mesh(surface *s);
 

@@ -1,4 +1,4 @@
-/* Surfaces and devices as the extension knows them. SPDX-License-Identifier: MIT */
+/* The extension's lists of surfaces and devices. SPDX-License-Identifier: MIT */
 #include "world.h"
 
 #include "serve.h"
@@ -9,7 +9,7 @@ surface *surfaces;
 static surface *last_surface;
 surface *marked_surfaces;
 
-/* Surfaces outside of a tree have nothing to tell. */
+/* Surfaces outside of a tree have no changes to pass on. */
 void surface_mark(surface *s) {
     if (!s->marked_at && s->is_listed) {
         s->next_marked = marked_surfaces;

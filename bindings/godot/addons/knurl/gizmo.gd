@@ -3,7 +3,7 @@ extends EditorNode3DGizmoPlugin
 ## A [KnurlDevice] in the editor: the box that its stylus reaches, its axes, and the HIP at its
 ## origin.
 
-## m: what the devices reach, by the scheme of their URI. A Touch's is its maker's figure, a
+## m: the workspace of each device, by the scheme of its URI. A Touch's is its maker's figure, a
 ## Falcon's a cube of 4 inches.
 const WORKSPACES: Dictionary = {
 	"touch": Vector3(0.160, 0.120, 0.070),
@@ -51,7 +51,7 @@ func _redraw(gizmo: EditorNode3DGizmo) -> void:
 	gizmo.add_mesh(ball, get_material("hip", gizmo))
 
 
-## m: the box a device reaches; zero where that is not known ("mouse": all that the game lets it).
+## m: a device's workspace; zero if it is unknown ("mouse": no limits).
 static func workspace_of(device: KnurlDevice) -> Vector3:
 	return WORKSPACES.get(device.device.get_slice(":", 0), Vector3.ZERO) * device.workspace_scale
 

@@ -14,7 +14,7 @@ const Builder := preload("surface_builder.gd")
 static var _registered: GLTFDocumentExtension
 
 
-## From now on, GLTFDocument makes surfaces of tags. Calling it twice is fine.
+## Makes GLTFDocument create surfaces from tags. May be called again.
 static func register() -> void:
 	if _registered == null:
 		_registered = new()
@@ -22,7 +22,7 @@ static func register() -> void:
 		GLTFDocument.register_gltf_document_extension(_registered, true)
 
 
-## From now on it does not.
+## Undoes [method register].
 static func unregister() -> void:
 	if _registered != null:
 		GLTFDocument.unregister_gltf_document_extension(_registered)

@@ -1,7 +1,7 @@
 @tool
 extends EditorInspectorPlugin
 ## Shows a [KnurlSurface]'s warnings above its properties. (A script cannot add configuration
-## warnings to a native class, and those of a native class cannot change with what a device says.)
+## warnings to a native class, and those of a native class cannot change while a device runs.)
 
 
 func _can_handle(object: Object) -> bool:
@@ -12,7 +12,7 @@ func _parse_begin(object: Object) -> void:
 	add_custom_control(Warnings.new(object as KnurlSurface))
 
 
-## A yellow line a warning, kept up to date while it is looked at.
+## A yellow line for each warning, updated while it is visible.
 class Warnings:
 	extends VBoxContainer
 	const SECONDS := 0.5

@@ -1,23 +1,23 @@
 @icon("res://addons/knurl/icons/KnurlMouse.svg")
 class_name KnurlMouse
 extends Node
-## The mouse as a finger, for people without a device: put it into a scene whose [KnurlDevice] has
-## the device [code]mouse[/code]. It hovers over what the pointer is on, and presses while the left
-## button is down. The wheel sets how deep. Beside all surfaces it goes on over the plane that it
-## was on last, so that a finger that is dragged off an edge leaves it there.
+## The mouse as a finger, for people without a device. Put it into a scene whose [KnurlDevice] has
+## the device [code]mouse[/code]. It hovers over the surface under the pointer and presses while the
+## left button is down; the wheel sets the depth. If no surface is under the pointer, it stays in
+## the plane of the last one, so that a finger dragged over an edge slips off there.
 
 const HOVER := 0.004  # m above the surface
 const DEEPEST := 0.002  # m
-const STEP := 0.0001  # m a notch of the wheel
+const STEP := 0.0001  # m per notch of the wheel
 
-## Which device it moves; empty: the first KnurlDevice beside it.
+## The device that it moves; empty: the first KnurlDevice among its siblings.
 @export var device_path: NodePath
 
 var _depth := 0.0006
 var _pointer := Vector2.ZERO
 var _pressed := false
 var _device: KnurlDevice
-var _plane := Plane()  # Plane(): it was on nothing yet
+var _plane := Plane()  # Plane(): no surface was hit yet
 
 
 func _ready() -> void:
@@ -45,12 +45,12 @@ func _process(_delta: float) -> void:
 	if hit.is_empty():
 		at = _plane.intersects_ray(from, along)
 	else:
-		# What is double-sided may be seen from behind.
+		# Double-sided surfaces may be seen from behind.
 		var normal: Vector3 = hit.normal if hit.normal.dot(along) < 0.0 else -hit.normal
 		_plane = Plane(normal, hit.position)
 	_pressed = _pressed and Input.is_mouse_button_pressed(MOUSE_BUTTON_LEFT)
 	var height: float = -_depth if _pressed else HOVER
-	if at == null:  # along the plane or away from it: up from where it is
+	if at == null:  # the ray does not hit the plane: rise from the current position
 		at = _plane.project(_device.hip_position)
 		height = HOVER
 	_device.move_hip(at + _plane.normal * height)

@@ -1,34 +1,34 @@
 @tool
 class_name KnurlOverlay
 extends Node
-## Draws the ridges of a [KnurlSurface] over its mesh, so that one sees what one will feel: period,
-## orientation, grid.
+## Draws the ridges of a [KnurlSurface] over its mesh, as they will be felt: period, orientation,
+## grid.
 ##
 ## [codeblock]
-## KnurlOverlay.set_shown(get_tree().root, true) # on all surfaces below; false takes it off again
+## KnurlOverlay.set_shown(get_tree().root, true) # on all surfaces below; false removes it
 ## [/codeblock]
-## It is an internal child of its surface: not saved, and gone with it. It draws through the
+## It is an internal child of its surface: not saved, and freed with it. It draws through the
 ## rendering server, so the mesh's own materials and [member GeometryInstance3D.material_overlay]
 ## stay as they are.
 
 const SHADER := preload("overlay.gdshader")
 const NAME := &"KnurlOverlay"
-## Of more triangles than this only a share is measured, to keep the editor swift: the uv scale is a
-## mean.
+## Meshes with more triangles are sampled, because the uv scale is only a mean: the editor stays
+## responsive.
 const MEASURED_TRIANGLES := 50000
 
 var _material := ShaderMaterial.new()
 var _drawn_on := RID()
 var _measured: Array = []  # the mesh and the basis that uv_scale was measured on
-var _shown: Array = []  # what the material was last told
+var _shown: Array = []  # the material's current parameters
 
 
-## Puts an overlay on every surface at and below [param root], or takes them off.
+## Puts an overlay on every surface at and below [param root], or removes them.
 static func set_shown(root: Node, shown: bool) -> void:
 	if root is KnurlSurface:
 		var overlay: Node = find_on(root)
 		if shown and overlay == null:
-			overlay = new()  # by no name: a game that no editor has seen has no list of global classes
+			overlay = new()  # not by name: a project never opened in the editor has no list of global classes
 			overlay.name = NAME
 			root.add_child(overlay, false, Node.INTERNAL_MODE_BACK)
 		elif not shown and overlay != null:
@@ -43,9 +43,9 @@ static func find_on(surface: KnurlSurface) -> Node:
 	return surface.get_node_or_null(NodePath(NAME))
 
 
-## Metres per u and v: the area-weighted means of |dP/du| and |dP/dv| over all triangles, as Knurl
-## has them.
-## [param basis] is what scales the mesh; zero where there are no uvs.
+## Metres per u and v: the area-weighted means of |dP/du| and |dP/dv| over all triangles, as in
+## Knurl.
+## [param basis]: the mesh's scale. Zero if there are no uvs.
 static func measure_uvs(mesh: Mesh, basis: Basis) -> Vector2:
 	var sum := Vector2.ZERO
 	var area := 0.0
@@ -88,8 +88,8 @@ func _exit_tree() -> void:
 	_draw_on(null)
 
 
-## What is shown is looked at each frame and not followed by signals: a surface's mesh, scale and
-## grating all change.
+## Polls each frame instead of using signals, because a surface's mesh, scale and grating may all
+## change.
 func _process(_delta: float) -> void:
 	var surface := get_parent() as KnurlSurface
 	var parent := surface.get_parent() as MeshInstance3D
@@ -121,7 +121,7 @@ func _process(_delta: float) -> void:
 	_material.set_shader_parameter(&"axis", surface.axis)
 	_material.set_shader_parameter(&"by_axis", by_axis)
 	_material.set_shader_parameter(&"double_sided", surface.double_sided)
-	_material.next_pass = parent.material_overlay  # the mesh's own stays, drawn after
+	_material.next_pass = parent.material_overlay  # the mesh's own overlay is drawn after it
 	if _drawn_on.is_valid():
 		RenderingServer.instance_geometry_set_material_overlay(_drawn_on, _material.get_rid())
 

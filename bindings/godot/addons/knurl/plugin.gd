@@ -1,7 +1,7 @@
 @tool
 extends EditorPlugin
 ## Knurl in the editor: glTF tags become surfaces, devices show their workspace, surfaces their
-## warnings, and a button in the 3D view draws what will be felt.
+## warnings, and a button in the 3D view draws the ridges.
 
 const FOLDER := "res://addons/knurl/"
 
@@ -9,7 +9,7 @@ var _gizmo: EditorNode3DGizmoPlugin
 var _post_import: EditorScenePostImportPlugin
 var _inspector: EditorInspectorPlugin
 var _button: Button
-# The scripts below name Knurl's classes, so they are loaded only where those are there.
+# The scripts below name Knurl's classes, so they are loaded only if the extension is.
 var _gltf: GDScript
 var _overlay: GDScript
 
@@ -75,8 +75,7 @@ func _import_again() -> void:
 		files.reimport_files(found)
 
 
-## From its text: when a project is opened for the first time, plugins start before pictures are
-## imported.
+## Reads the icon's text: when a project is first opened, plugins start before images are imported.
 static func _load_icon(name: String) -> Texture2D:
 	var image := Image.new()
 	image.load_svg_from_string(

@@ -1,8 +1,8 @@
 @tool
 extends EditorScenePostImportPlugin
-## Names with a hint ([code]-rigid[/code], [code]-colonly[/code], ...) make the importer put another
-## node where a tagged mesh was. This hangs the mesh's [KnurlSurface] below what is left of it, or
-## says that nothing is.
+## Names with a hint ([code]-rigid[/code], [code]-colonly[/code], ...) make the importer replace a
+## tagged mesh by another node. This puts the mesh's [KnurlSurface] below the replacement, or
+## reports that there is no replacement.
 
 ## An option of each scene's import. A file whose .import lacks it was imported while the plugin was
 ## off.
@@ -55,7 +55,7 @@ static func _can_be_felt(node: Node) -> bool:
 	)
 
 
-## The mesh below a node that has taken its place, or its triangles.
+## The mesh, or its triangles, below the node that replaced it.
 static func _find_left(node: Node) -> Node:
 	for type: String in ["MeshInstance3D", "CollisionShape3D"]:
 		for child: Node in node.get_children():

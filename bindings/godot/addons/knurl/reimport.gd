@@ -1,7 +1,7 @@
 @tool
 extends RefCounted
-## Finds the glTF files with tags that were imported while the plugin was off, and so without
-## surfaces: the engine does not import them again by itself.
+## Finds glTF files with tags that were imported without surfaces, while the plugin was off: the
+## engine does not reimport them by itself.
 
 const OPTION: String = preload("post_import.gd").OPTION
 const GLB_MAGIC := 0x46546C67  # "glTF"

@@ -1,8 +1,8 @@
 @tool
 extends RefCounted
-## What [KnurlGltf] does with one file: reads its tags, merges material < mesh < node key by key,
-## and hangs a [KnurlSurface] below each node that shows a tagged primitive. A wrong tag costs the
-## surfaces that need it, and a sentence; the others are made.
+## Builds the surfaces of one file for [KnurlGltf]: reads its tags, merges material < mesh < node
+## key by key, and puts a [KnurlSurface] below each node that shows a tagged primitive. A wrong tag
+## gives an error message, and only the surfaces that use it are left out.
 
 const Tags := preload("tags.gd")
 const TRIANGLES := 4  # glTF's mode; 5 and 6 are strips and fans
@@ -14,7 +14,7 @@ var _tags := Tags.new()
 var _of_materials: Array[Tags.Tag] = []
 var _of_meshes: Array[Tags.Tag] = []
 var _of_nodes: Array[Tags.Tag] = []
-var _gratings: Dictionary = {}  # values -> KnurlGrating: what is the same is edited in one place
+var _gratings: Dictionary = {}  # values -> KnurlGrating: equal gratings are shared
 var _parts: Dictionary = {}  # [ImporterMesh, primitives] -> ImporterMesh with only those
 
 
@@ -73,9 +73,9 @@ func _refuse_lost_tags() -> void:
 			)
 
 
-## One node of the file with its mesh. What shows several primitives keeps those without a surface
-## (or the first), and gets a mesh instance below it for each other: a KnurlSurface is felt over all
-## of its parent's mesh.
+## One node of the file with its mesh. A node with several primitives keeps those without a surface
+## (or the first one), and gets a child mesh instance for each other: a KnurlSurface is felt over
+## all of its parent's mesh.
 func _show(node_index: int, mesh_index: int) -> void:
 	var instance := _state.get_scene_node(node_index) as ImporterMeshInstance3D
 	var primitives: Array = _array(_array(_json, "meshes")[mesh_index], "primitives")
@@ -113,7 +113,7 @@ func _show(node_index: int, mesh_index: int) -> void:
 		instance.mesh = _part_of(whole, kept)
 
 
-## The merged tag of what a node shows; null where there is none, or none that can be felt.
+## The merged tag of a node's primitive; null if there is no tag, or it cannot be felt.
 func _tag_of(
 	node_index: int, mesh_index: int, primitive_index: int, primitive: Dictionary
 ) -> Tags.Tag:
@@ -174,7 +174,7 @@ func _add_surface(parent: Node3D, tag: Tags.Tag, double_sided: bool) -> void:
 
 func _grating_of(tag: Tags.Tag) -> KnurlGrating:
 	var values: Dictionary = tag.values.duplicate()
-	values.erase("axis")  # the surface's, as are the coordinates
+	values.erase("axis")  # set on the surface, like the coordinates
 	values.erase("coordinates")
 	values.erase("smooth")  # a node's mesh is felt as its triangles
 	if not _gratings.has(values):
@@ -219,7 +219,7 @@ func _part_of(whole: ImporterMesh, primitives: Array) -> ImporterMesh:
 
 func _add_child(parent: Node, child: Node) -> void:
 	parent.add_child(child, true)
-	child.owner = _root  # else it is not saved with the imported scene
+	child.owner = _root  # otherwise it is not saved with the imported scene
 
 
 func _material_of(primitive: Dictionary) -> Dictionary:

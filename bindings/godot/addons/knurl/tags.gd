@@ -1,8 +1,7 @@
 @tool
 extends RefCounted
-## A grating's tag in glTF [code]extras[/code], nested or flat: read, checked, merged. What is wrong
-## is told as Knurl's own loader tells it: which object, which key, what was expected, what was
-## found.
+## A grating's tag in glTF [code]extras[/code], nested or flat: read, checked, merged. Errors are
+## worded as in Knurl's own loader: object, key, expected and found value.
 
 const METHODS: Dictionary = {"S1": 1, "S2": 2, "bandlimited": 3}
 const KEYS: Array[String] = [
@@ -22,13 +21,13 @@ const REQUIRED: Array[String] = ["spatial_frequency", "amplitude", "stiffness"]
 const FLAT_PREFIX := "knurl_"
 
 
-## What one object's tag says, or what several come to.
+## The tag of one object, or several merged ones.
 class Tag:
 	extends RefCounted
 	var values: Dictionary = {}
-	var broken := false  ## something in it is wrong, and was told
+	var broken := false  ## it has an error, already reported
 
-	## Takes each key that [param other] has from it.
+	## Replaces the values of the keys that [param other] has.
 	func override_with(other: Tag) -> void:
 		if other.values.has("axis"):  # of an axis and a box the later one wins
 			values.erase("coordinates")
@@ -37,7 +36,7 @@ class Tag:
 		values.merge(other.values, true)
 		broken = broken or other.broken
 
-	## The first required key that is not there, or "".
+	## The first missing required key, or "".
 	func missing_key() -> String:
 		for key: String in REQUIRED:
 			if not values.has(key):
@@ -45,17 +44,17 @@ class Tag:
 		return ""
 
 
-## What was wrong, a sentence each.
+## The errors, one sentence each.
 var errors: PackedStringArray = []
 
 var _where := ""
 
 
-## The tag of a material, mesh or node of the file's JSON; null where its extras hold none.
+## The tag of a material, mesh or node of the file's JSON; null if its extras hold no tag.
 func read(owner: Dictionary, where: String) -> Tag:
 	var extras: Variant = owner.get("extras")
 	if not extras is Dictionary:
-		return null  # extras may be anything (glTF 2.0, 3.2); what is no object is not for Knurl
+		return null  # extras may be any value (glTF 2.0, 3.2); only an object can hold a tag
 	_where = where
 	var nested: bool = extras.has("knurl")
 	var flat: Array[String] = _flat_keys(extras)
@@ -79,7 +78,7 @@ func read(owner: Dictionary, where: String) -> Tag:
 	return tag
 
 
-## Refuses a tag on what cannot carry one, where it would be lost in silence.
+## Reports a tag on an object that cannot have one, instead of ignoring it silently.
 func refuse(owner: Dictionary, where: String, instead: String, at: String = "extras") -> void:
 	var extras: Variant = owner.get("extras")
 	if extras is Dictionary and (extras.has("knurl") or not _flat_keys(extras).is_empty()):
@@ -172,7 +171,7 @@ func _read_spatial_frequency(tag: Tag, at: String, value: Variant) -> void:
 
 func _read_axis(tag: Tag, at: String, value: Variant) -> void:
 	if value is Array and value.size() == 3 and value.all(_is_number):
-		# Scaled to 1, so that tiny and huge components stay what they are in a Vector3.
+		# Scaled to 1, so that tiny and huge components do not underflow or overflow in a Vector3.
 		var largest: float = maxf(absf(value[0]), maxf(absf(value[1]), absf(value[2])))
 		if largest > 0.0:
 			tag.values["axis"] = Vector3(value[0] / largest, value[1] / largest, value[2] / largest)
