@@ -1,6 +1,7 @@
-"""Builds the libraries into the package, and what cffi reads of their headers. Needs CMake, a C and a C++ compiler and
-what knurl_gltf is built with (tinygltf, nlohmann-json, GLM). The environment variable CMAKE_ARGS may hold more options for
-CMake; KNURL_BUILD_FOLDER, where they are built (default: build/libraries). A source archive holds the library's sources
+"""Builds the libraries into the package, and the declarations of their headers for cffi. Needs CMake, a C and a C++
+compiler and the dependencies of knurl_gltf (tinygltf, nlohmann-json, GLM). Environment: CMAKE_ARGS: more options for
+CMake; KNURL_BUILD_FOLDER: the folder to build in (default: build/libraries). A source archive holds the library's
+sources
 beside this file, in sdk-source. SPDX-License-Identifier: MIT"""
 import os
 import re
@@ -17,10 +18,10 @@ HERE = os.path.dirname(os.path.realpath(__file__))
 CARRIED = os.path.join(HERE, "sdk-source")
 ROOT = CARRIED if os.path.isdir(CARRIED) else os.path.dirname(os.path.dirname(HERE))
 HEADERS = os.path.join(ROOT, "sdk/include")
-# What the libraries are built and installed from.
+# The sources and installed files of the libraries.
 SOURCES = ("CMakeLists.txt", "cmake", "sdk", "LICENSE", "README.md", "CHANGELOG.md", "SECURITY.md",
            "bindings/godot/addons/knurl/THIRD_PARTY.md")
-# What every machine need not have is linked in.
+# Linked statically, because a machine may lack these libraries.
 RUNTIME = "-DCMAKE_SHARED_LINKER_FLAGS=-static-libgcc -static-libstdc++"
 
 
@@ -30,7 +31,8 @@ def version():
 
 
 def interface():
-    """The headers as cffi reads them: preprocessed, without declarations of other headers and without attributes; of macros
+    """The headers as cffi reads them: preprocessed, without declarations of other headers and without attributes; of
+    macros
     only whole numbers."""
     compiler = os.environ.get("CC", "cc")
     text = subprocess.run([compiler, "-E", "-dD", "-I", HEADERS, "-DKNURL_NONBLOCKING=", "-include", "knurl/knurl.h", "-include",
@@ -49,7 +51,7 @@ def interface():
 
 
 class Build(build_py):
-    editable_mode = False # setuptools sets it for `pip install -e`: the package is then used where its sources are
+    editable_mode = False # setuptools sets it for `pip install -e`: the package is then used in its source folder
 
     def run(self):
         super().run()
@@ -63,7 +65,7 @@ class Build(build_py):
                         os.path.join(folder, "installed")], check=True)
         libraries = os.path.join(folder, "installed", "lib")
         for name in os.listdir(libraries):
-            if re.search(r"record\.so$|\.so\.\d+\.\d+$", name): # the name that it is loaded by
+            if re.search(r"record\.so$|\.so\.\d+\.\d+$", name): # the file name that is loaded
                 shutil.copy(os.path.join(libraries, name), package)
         os.makedirs(os.path.join(package, "licences"), exist_ok=True)
         for name in ("LICENSE", "bindings/godot/addons/knurl/THIRD_PARTY.md"):
@@ -86,7 +88,7 @@ class Archive(sdist):
 
 class Wheel(bdist_wheel):
     def get_tag(self):
-        """Any Python 3, but this machine's kind, from the C library on whose functions the libraries need."""
+        """Any Python 3 on this platform, with the oldest C library that has all needed functions."""
         platform = super().get_tag()[2]
         needed = [0]
         for root, _, names in os.walk(self.bdist_dir or "."):

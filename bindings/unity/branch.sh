@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Commits a folder that package.sh made as all of a branch, for git URLs (REPOSITORY#BRANCH): a package with its libraries
-# at the root. Nothing is checked out; the branch is made where it is not there, and nothing where it holds that already.
+# Commits a folder made by package.sh as the whole content of a branch, for git URLs (REPOSITORY#BRANCH): the package,
+# with its libraries, at the root. Checks out nothing; creates the branch if needed; does nothing if the branch already
+# has this content.
 # usage: branch.sh FOLDER BRANCH     (in the repository)
 set -euo pipefail
 [ $# -eq 2 ] || { echo "usage: branch.sh FOLDER BRANCH" >&2; exit 2; }
@@ -14,9 +15,9 @@ if [ "$(git symbolic-ref -q HEAD || true)" = "$ref" ]; then
 fi
 index=$(mktemp)
 trap 'rm -f "$index"' EXIT
-rm "$index" # git wants none, or one of its own
+rm "$index" # git accepts a missing index, but not an empty file
 export GIT_INDEX_FILE=$index
-git --work-tree="$folder" add --force --all "$folder" # libraries are ignored elsewhere
+git --work-tree="$folder" add --force --all "$folder" # --force: .gitignore lists libraries
 tree=$(git write-tree)
 parent=$(git rev-parse -q --verify "$ref" || true)
 if [ -n "$parent" ] && [ "$(git rev-parse "$parent^{tree}")" = "$tree" ]; then

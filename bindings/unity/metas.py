@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """The .meta files of the Unity package: one beside each file and folder, with a guid that scenes refer to.
 
-usage: metas.py --write [FOLDER]            makes those that are missing; what is there stays as it is
-       metas.py --check [--packed] [FOLDER]  names what is wrong with them, a line each; exit 1 if anything is
+usage: metas.py --write [FOLDER]            writes missing ones; existing ones are not changed
+       metas.py --check [--packed] [FOLDER]  prints one line per error; exit 1 if there are any
 
 A guid comes from the file's path in the package when its meta is made, and moves with the meta afterwards. Without
 --packed, the metas of native libraries may stand alone: the libraries themselves are put beside them by package.sh.
@@ -43,16 +43,16 @@ PLAIN_BODY = "  externalObjects: {}\n"
 TAIL = "  userData: \n  assetBundleName: \n  assetBundleVariant: \n"
 
 
-SAMPLES = "Samples~"  # what is below each of its folders is copied into projects, with its metas
+SAMPLES = "Samples~"  # its folders are copied into projects, with their metas
 
 
 def is_ignored(name):
-    """What Unity does not look at: hidden files, and folders and files that end in ~."""
+    """True for names that Unity ignores: hidden files, and folders and files that end in ~."""
     return name.startswith(".") or (name.endswith("~") and name != SAMPLES) or name.lower().endswith(".tmp")
 
 
 def walk(package):
-    """Relative paths, with /, of the folders, the files and the metas that Unity looks at."""
+    """Relative paths, with /, of the folders, files and metas that Unity imports."""
     folders, files, metas = set(), set(), set()
     for folder, inner, names in os.walk(package):
         inner[:] = sorted(name for name in inner if not is_ignored(name))
@@ -66,7 +66,7 @@ def walk(package):
 
 
 def importer_of(path, is_folder):
-    """The importer a meta has to name, or None where this project has no such file."""
+    """The importer that a meta must name, or None for an unknown kind of file."""
     if is_folder:
         return "DefaultImporter"
     if path == "package.json":
@@ -79,7 +79,7 @@ def guid_of(path):
 
 
 def plugin_body(path):
-    """A native library's: the editor and player of its own system and processor, and nothing else."""
+    """The settings of a native library: only for the editor and player of its own system and processor."""
     system, player, cpu = LIBRARIES[path]
     lines = [
         "  externalObjects: {}",
@@ -132,7 +132,7 @@ def write(package):
 
 
 def check_meta(path, text, is_folder):
-    """What is wrong with one meta, a sentence each, and its guid or None."""
+    """The errors of one meta, one sentence each, and its guid or None."""
     head = re.match(r"fileFormatVersion: 2\nguid: ([^\n]*)\n", text)
     if head is None:
         return ["malformed: expected 'fileFormatVersion: 2' and 'guid: ...' as its first two lines"], None
@@ -156,7 +156,7 @@ def check_meta(path, text, is_folder):
 
 
 def check(package, is_packed):
-    """Every fault, a line each."""
+    """All errors, one line each."""
     folders, files, metas = walk(package)
     faults = [f"{path}: missing: it has no .meta" for path in folders | files if path + ".meta" not in metas]
     owners = {}

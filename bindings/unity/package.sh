@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Packs the Unity package with the libraries that were built: OUT_DIR/com.knurl.haptics, a folder to be added from disk
 # or committed to a branch for git URLs, and OUT_DIR/com.knurl.haptics-VERSION.tgz, the same as a tarball.
-# A Linux library that wants a newer glibc than 2.31 (Ubuntu 20.04's) is refused, or with --any-glibc told.
-# KNURL_URL: the https address of the repository, for the manifest's documentationUrl and so on; without it there are none.
+# A Linux library that needs a newer glibc than 2.31 (Ubuntu 20.04) is an error, or with --any-glibc a warning.
+# KNURL_URL: the https address of the repository, for the manifest's documentationUrl and so on; without it there are no
+# addresses.
 # KNURL_UNITY_ORGANIZATION: the id of a Unity organization: the tarball is signed for it with Unity's `upm`, whose
 # credentials are the caller's. Unity 6.3 and later warn of tarballs that are not signed.
 # usage: package.sh [--any-glibc] OUT_DIR LIBRARY...
@@ -25,7 +26,7 @@ if ! grep -qx "  \"version\": \"$version\"," "$here/package/package.json"; then
     exit 1
 fi
 
-# place_library FILE FOLDER MAGIC [STRIP]: into the stage; STRIP takes debug information out of it.
+# place_library FILE FOLDER MAGIC [STRIP]: copies it into the stage; STRIP removes its debug information.
 place_library() {
     if [ "$(head -c "${#3}" "$1")" != "$3" ]; then
         echo "package: $1: expected a library that starts with '${3#$'\x7f'}', found another kind of file" >&2
@@ -45,10 +46,10 @@ check_glibc() {
     fi
 }
 
-stage=$(mktemp -d "$out/.package.XXXXXX") # beside what it becomes, so that moving it there is one step
+stage=$(mktemp -d "$out/.package.XXXXXX") # on the same file system, so that the final move is atomic
 trap 'rm -rf "$stage"' EXIT
 mkdir "$stage/$name"
-# What git ignores, such as a library that somebody put there to try it, stays behind.
+# Leaves out files that git ignores, such as a library put there for a test.
 tar -C "$here/package" --exclude='*.so' --exclude='*.dll' --exclude='*.dylib' -cf - . | tar -C "$stage/$name" -xf -
 find "$stage/$name" -name '.*' -type f -delete
 for library in "$@"; do
@@ -90,7 +91,7 @@ fi
 find "$stage/$name" -type f -exec chmod 644 {} +
 find "$stage/$name" -type d -exec chmod 755 {} +
 
-# As npm lays it out, and the same bytes for the same files: sorted, of one time and one owner.
+# # In npm's layout, and reproducible: sorted, with one time and one owner.
 tar -C "$stage" --transform "s,^$name,package,S" --sort=name --mtime="@$SOURCE_DATE_EPOCH" --owner=0 --group=0 \
     --numeric-owner --format=ustar -cf "$stage/tar" "$name"
 gzip -n -9 <"$stage/tar" >"$stage/tgz"

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""What Unity's package validation asks of a package, beside its metas (metas.py): manifest, changelog, documents, samples,
-paths.
+"""Checks a package as Unity's package validation does, except its metas (metas.py): manifest, changelog, documents,
+samples, paths.
 
-usage: validate.py [--published] [FOLDER]    names what is wrong, a line each; exit 1 if anything is. --published: the
-                                             addresses that package.sh writes have to be there
+usage: validate.py [--published] [FOLDER]    prints one line per error; exit 1 if there are any. --published: also
+requires the addresses that package.sh writes
 """
 import argparse
 import datetime
@@ -102,7 +102,7 @@ def check_files(package):
 
 
 def check(package, is_published):
-    """Every fault, a line each."""
+    """All errors, one line each."""
     try:
         manifest = json.loads(read(package, "package.json"))
     except ValueError as error:

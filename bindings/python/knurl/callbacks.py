@@ -1,4 +1,5 @@
-"""Python functions that a device or a loop calls. The C callbacks are module-level and never freed, so that no thread can
+"""Python functions that a device or a loop calls. The C callbacks are module-level and never freed, so that no thread
+can
 call a freed one; their `user` is a handle of the object with the Python functions. SPDX-License-Identifier: MIT"""
 import threading
 from typing import Any, Callable, Dict, NamedTuple, Optional, Tuple
@@ -14,7 +15,8 @@ _thread = threading.local()
 
 
 class Sample(NamedTuple):
-    """A device's reading: position in m, device axes; buttons, bit 0 is the first; orientation of the stylus, a quaternion
+    """A device's reading: position in m, device axes; buttons, bit 0 is the first; orientation of the stylus, a
+    quaternion
     x, y, z, w, zeros if it is not measured."""
 
     position: Tuple[float, float, float]
@@ -43,12 +45,12 @@ def let_go(user: Any) -> None:
 
 
 def in_callback() -> bool:
-    """Whether this thread is within a loop's callback."""
+    """True within a loop's callback on this thread."""
     return getattr(_thread, "inside", False)
 
 
 def _call(calls: Calls, function: Callable[..., Any], *arguments: Any) -> Any:
-    """None after an exception, which ends the loop and is raised by the loop's next wait(), step(), stop() or close()."""
+    """None after an exception, which ends the loop and is raised by its next wait(), step(), stop() or close()."""
     if calls.error is not None:
         return None
     was_inside, _thread.inside = in_callback(), True # a callback may step another loop

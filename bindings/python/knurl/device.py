@@ -22,7 +22,7 @@ _DRAINED = 1024        # rows taken at a time
 
 
 class Listing(NamedTuple):
-    """A connected device, or a kind with no device connected; reason: why it cannot be used and the remedy, "" if it can."""
+    """A connected device, or a kind with no device connected; reason: why it cannot be used; "" if it can."""
 
     uri: str
     name: str
@@ -40,7 +40,7 @@ class Event(NamedTuple):
 
 
 def devices() -> List[Listing]:
-    """The connected devices, and for each kind without one the reason. Takes some milliseconds."""
+    """The connected devices, and an entry with the reason for each kind without one. Takes some milliseconds."""
     room = 64
     found = ffi.new("knurl_device_listing[]", room)
     count = min(room, lib.knurl_device_list(found, room))
@@ -48,7 +48,8 @@ def devices() -> List[Listing]:
 
 
 class Device(Owner):
-    """A device by its URI: "fake", "touch", "falcon", "rawhid" ...; see knurl_device_open(). If this program already has it
+    """A device by its URI: "fake", "touch", "falcon", "rawhid" ...; see knurl_device_open(). If this program already
+    has it
     open by the same URI and it cannot be opened twice, the earlier object and its loop are closed."""
 
     _order = 1
@@ -74,10 +75,12 @@ class Device(Owner):
                      close: Optional[Callable[[], Any]] = None, blocking: bool = False, motors_known: bool = False,
                      name: str = "own", **info: Any) -> "Device":
         """A device of your own; see knurl_device_functions. read(): the position, 3 numbers in m, or a Sample; None: no
-        new one. write(force): N, 3 numbers, max_force at most. An exception in a function counts as a lost device; the first
+        new one. write(force): N, 3 numbers, max_force at most. An exception in a function counts as a lost device; the
+        first
         is in `error`. info: other fields of knurl_device_info, such as resolution or workspace_min.
 
-        The functions are called on the loop's haptic thread, which then waits for Python: a Python program that does other
+        The functions are called on the loop's haptic thread, which then waits for Python: a Python program that does
+        other
         work at the same time delays it by milliseconds. For simulations use Loop.step(); for real hardware write the
         functions in C."""
         lib.knurl_device_zero_on_exit(0)
@@ -198,18 +201,23 @@ def _finish_later() -> None:
 
 
 class Loop(Owner):
-    """Plays a scene on a device, or a force of your own: start() at the update rate, or step() as fast as the machine can. A
-    `with` starts it, and stops and closes it at the end; stats and ticks can still be read then. A device or a HIP has one
+    """Plays a scene on a device, or a force of your own: start() at the update rate, or step() as fast as the machine
+    can. A
+    `with` starts it, and stops and closes it at the end; stats and ticks can still be read then. A device or a HIP has
+    one
     loop: making another closes the earlier one, so that a notebook's cell can be run again."""
 
     def __init__(self, scene: Optional[Scene], device: Device, hip: int = 0, *,
                  force_callback: Optional[Callable[[int, callbacks.Sample], Any]] = None,
                  tick_callback: Optional[Callable[[np.ndarray], Any]] = None,
                  record: Union[bool, Sequence[str]] = False, **values: Any) -> None:
-        """force_callback(tick, sample), if scene is None: the force, 3 numbers, N, device axes. tick_callback(row): called
+        """force_callback(tick, sample), if scene is None: the force, 3 numbers, N, device axes. tick_callback(row):
+        called
         with each tick's output. Both run on the haptic thread, which then waits for Python (see Device.of_functions());
-        after an exception the force is zero, the loop ends, and wait(), step() or stop() raises it. record: True, or some
-        fields of knurl_tick_output: `ticks` has every tick, for nanoseconds a tick on the haptic thread. values: other fields of
+        after an exception the force is zero, the loop ends, and wait(), step() or stop() raises it. record: True, or
+        some
+        fields of knurl_tick_output: `ticks` has every tick, for nanoseconds a tick on the haptic thread. values: other
+        fields of
         knurl_loop_desc, such as update_rate_hz, tick_limit, ramp_s, reconnect."""
         if scene is None and (record or tick_callback):
             raise ValueError("record, tick_callback: expected a scene, found None; a force_callback gets every sample itself")
@@ -265,7 +273,8 @@ class Loop(Owner):
                     self._record.drain()
 
     def wait(self, seconds: Optional[float] = None) -> bool:
-        """Waits up to `seconds` (None: for ever) for its end; True if it has ended. Other Python threads run meanwhile."""
+        """Waits up to `seconds` (None: for ever) for its end; True if it has ended. Other Python threads run
+        meanwhile."""
         left = float("inf") if seconds is None else seconds
         while not lib.knurl_loop_wait(self.handle, max(0.0, min(left, _SLICE_S))):
             left -= _SLICE_S

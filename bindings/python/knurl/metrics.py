@@ -1,4 +1,4 @@
-"""Metrics of a periodic signal, a value a tick, each held until the next: what `knurl metrics` prints.
+"""Metrics of a periodic signal with one value per tick, held until the next tick; the same as `knurl metrics` prints.
 SPDX-License-Identifier: MIT"""
 from math import ceil, floor, gcd, isnan
 from typing import Any, Dict, Union
@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from ._library import check, ffi, lib
 
-_LONGEST = 200000 # ticks of an actual period that is looked for
+_LONGEST = 200000 # ticks: the longest actual period that is searched for
 _METHODS = {"T1": "KNURL_WAVE_T1", "T2": "KNURL_WAVE_T2", "T3": "KNURL_WAVE_T3"}
 
 
@@ -20,7 +20,7 @@ def _values_of(values: ArrayLike, name: str = "values") -> np.ndarray:
 
 
 def _whole_ticks(period: float) -> int:
-    """The least whole number of ticks that is a whole number of periods, to 1e-9 of it; 0: none in reach."""
+    """The smallest number of ticks that is a whole number of periods, to 1e-9 of it; 0: not found."""
     ticks = period * np.arange(1, int(_LONGEST / period) + 1)
     whole = np.flatnonzero(np.abs(ticks - np.floor(ticks + 0.5)) <= 1e-9 * ticks)
     return int(ticks[whole[0]] + 0.5) if len(whole) else 0
@@ -43,8 +43,8 @@ def wave_method(method: str) -> int:
 
 
 def wave(method: str, period: float, amplitude: float = 1.0, rate: float = 1000.0, ticks: Union[int, None] = None) -> np.ndarray:
-    """A temporal signal of the paper's: method T1, T2 or T3, period in s, amplitude, rate in Hz. ticks: how many values;
-    None: one actual period, after which all repeats."""
+    """A temporal signal of the paper: method T1, T2 or T3, period in s, amplitude, rate in Hz. ticks: number of values;
+    None: one actual period, after which the signal repeats."""
     made = ffi.new("knurl_wave *")
     check(lib.knurl_wave_prepare(wave_method(method), period, amplitude, rate, made))
     count = _actual_period(made) if ticks is None else ticks
@@ -59,17 +59,18 @@ def dominant(values: ArrayLike, rate: float) -> Dict[str, float]:
     lines = np.arange(len(signal) // 2 + 1)
     held = 2.0 / len(signal) * np.abs(np.fft.rfft(signal)) * np.sinc(lines / len(signal))
     held[0] = 0.0
-    best = int(np.argmax(held >= held.max() * (1.0 - 1e-5))) # of equals the lowest
+    best = int(np.argmax(held >= held.max() * (1.0 - 1e-5))) # the lowest of equal lines
     return {"hz": best * rate / len(signal), "amplitude": float(held[best])}
 
 
 def pcc(a: ArrayLike, b: ArrayLike) -> float:
-    """Pearson's correlation of two signals, each an actual period, over the least common multiple of both. NaN where either
-    does not vary."""
+    """Pearson's correlation of two signals, each one actual period, over the least common multiple of both. NaN if
+    either is constant."""
     x, y = _values_of(a, "a"), _values_of(b, "b")
     common = gcd(len(x), len(y))
     x, y = x - x.mean(), y - y.mean()
-    # over that multiple a tick of one meets those of the other that are as far from a multiple of `common`
+    # over that multiple a tick of one coincides with those of the other at the same distance from a multiple of
+    # `common`
     ab = sum(x[k::common].sum() * y[k::common].sum() for k in range(common))
     size = np.sqrt(len(y) // common * (x @ x) * (len(x) // common * (y @ y)))
     return float(ab / size) if size > 0.0 else float("nan")
@@ -91,9 +92,10 @@ def _wavering(values: np.ndarray, window: int) -> float:
 
 
 def felt_weight(hz: ArrayLike) -> np.ndarray:
-    """How much a force at so many Hz is felt: the motion that it makes of a device of 45 g and 0.5 N s/m in a hand of 5 N
-    s/m and 700 N/m, over the detection threshold of a fingertip (flat to 40 Hz, -12 dB an octave to 250 Hz and +12 above:
-    Verrillo 1963); nothing up to 8 Hz. A model, not a measurement; its unit has no meaning, its ratios have."""
+    """The sensitivity to a force at a frequency: the motion that it causes in a device of 45 g and 0.5 N s/m, held by a
+    hand of 5 N s/m and 700 N/m, over the detection threshold of a fingertip (flat to 40 Hz, -12 dB an octave to 250 Hz
+    and +12 above:
+    Verrillo 1963); zero up to 8 Hz. A model, not a measurement: only ratios have a meaning."""
     f = np.asarray(hz, dtype=float)
     w, over = 2.0 * np.pi * f, np.maximum(f, 1e-9) / 250.0
     threshold = np.where(f < 40.0, (250.0 / 40.0) ** 2, np.maximum(over**-2, over**2))
@@ -105,11 +107,13 @@ def _false_share(power: np.ndarray, ridges: np.ndarray) -> float:
 
 
 def steady(values: ArrayLike, rate: float, frequency: float) -> Dict[str, float]:
-    """Metrics of the signal of ridges that pass at `frequency` Hz, with the names and definitions of the study `tradeoff`
-    (samples/study/README.md), in the unit of `values` unless noted; 50 ms and a cycle of them at least:
+    """Metrics of the signal of ridges that pass at `frequency` Hz, with the names and definitions of the study
+    `tradeoff` (samples/study/README.md), in the unit of `values` unless noted. Needs at least 50 ms and one cycle.
 
-    false_tones, felt_false_tones: the share (0 to 1) of the power, below rate / 2 or as felt, that is farther than 5 % of
-    the frequency (at least 4 Hz) from each of its odd multiples. level: the line at the frequency; a square wave of 1 has
+    false_tones, felt_false_tones: the share (0 to 1) of the power, below rate / 2 or as felt, that is farther than 5 %
+    of
+    the frequency (at least 4 Hz) from each of its odd multiples. level: the line at the frequency; a square wave of 1
+    has
     4/pi. push: mean over blocks of 50 ms, to whole cycles, of |mean|. net: |mean|, through Hann's window. wavering,
     wavering_50: standard deviation over mean of the rms in windows of 12 and 50 ms. crest: the largest |value|."""
     signal = _values_of(values)
@@ -132,10 +136,11 @@ def steady(values: ArrayLike, rate: float, frequency: float) -> Dict[str, float]
 
 
 def step(values: ArrayLike, cycles: ArrayLike) -> float:
-    """How far the played half cycles get out of step with the ridges: the worst distance, in cycles, of a tick's place on the grating
-    from the half cycle that is played, which is counted by the changes of sign of `values`; 0 within half a cycle. cycles:
-    the place, a tick each (`cycles` of a tick along the axis that is stroked): whole where a ridge begins to rise. From each
-    turn of the hand on the first half cycle is taken for the nearest of its sign. For S1 and bandlimited; S2's events, which
+    """The largest error of phase between the played half cycles and the ridges, in cycles: the distance of a tick's
+    position on the grating from the half cycle that is played, counted by sign changes of `values`; 0 within half a
+    cycle. cycles: the position of each tick (`cycles` along the stroked axis), a whole number at the start of each
+    rise. At each turn of the hand, the first half cycle is matched to the nearest one of its sign. For S1 and
+    bandlimited; S2's events, which
     may have rests between, are counted by the study."""
     signs, phase = np.sign(_values_of(values)), _values_of(cycles, "cycles")
     if len(signs) != len(phase):

@@ -14,7 +14,7 @@ from .ticks import OUTPUTS, Ticks, as_ticks, copy_fields, packed
 _INPUTS = arrays_of("knurl_tick_input")
 _COUNTS = arrays_of("knurl_hip_counts")
 _CONTACTS = arrays_of("knurl_hip_contact")
-_CHUNK = 1024 # ticks a call: enough to hide the cost of a call, few enough to stay in the cache
+_CHUNK = 1024 # ticks per call: enough to hide the cost of a call, few enough to stay in the cache
 
 
 def _tuple_of(values: ArrayLike, count: int, what: str) -> List[float]:
@@ -66,7 +66,7 @@ class Material:
 
 
 class Surface:
-    """A surface of a scene, by its id (`id`), which tick outputs name in "surface"."""
+    """A surface of a scene; `id` is the value in the field "surface" of tick outputs."""
 
     def __init__(self, scene: "Scene", surface_id: int) -> None:
         self._scene = scene
@@ -90,7 +90,7 @@ class Surface:
 
     @property
     def material(self) -> Material:
-        """As it is rendered: the default method is resolved."""
+        """The material as rendered, with the default method resolved."""
         desc = described("knurl_material_desc")
         check(lib.knurl_scene_get_material(self._scene.handle, self.id, desc))
         return Material._of(desc)
@@ -129,7 +129,7 @@ class _Hip:
 
     def __init__(self, number: int) -> None:
         self.number, self.rate = number, 1000.0
-        self.has_more = False # whether `inputs` has velocities or absences
+        self.has_more = False # True if `inputs` has velocities or absences
         self.loop: Any = None # a weak reference to the loop that ticks it on a haptic thread
         self._lock = threading.Lock()
         self.inputs: np.ndarray = np.zeros(0, _INPUTS)
@@ -185,7 +185,7 @@ class Scene(Owner):
 
     def add_plane(self, half_extents: ArrayLike = (0.05, 0.05), material: Optional[Material] = None,
                   **pose: Any) -> Surface:
-        """A rectangle whose front looks along its z. pose: name, position, rotation or normal, axis,
+        """A rectangle with its front towards its z. pose: name, position, rotation or normal, axis,
         double_sided."""
         plane = described("knurl_plane_desc")
         plane.half_extents = _tuple_of(half_extents, 2, "half_extents")
@@ -195,8 +195,8 @@ class Scene(Owner):
                  tangents: Optional[ArrayLike] = None, normals: Optional[ArrayLike] = None,
                  material: Optional[Material] = None, **pose: Any) -> Surface:
         """A triangle mesh: positions (n, 3), indices (m, 3) of them, uvs (n, 2), tangents (n, 4). Arrays are copied.
-        normals (n, 3): it is felt as the smooth surface that they describe.
-        pose: as of a plane, and box: ridges are laid out by positions instead of by uvs."""
+        normals (n, 3): makes it feel as smooth as they describe. pose: as for add_plane(), and box: ridges follow
+        positions instead of uvs."""
         mesh = described("knurl_mesh_desc")
         arrays = [_rows(positions, 3, "f4", "positions")]
         mesh.positions = ffi.from_buffer("float[]", arrays[0])
@@ -242,7 +242,8 @@ class Scene(Owner):
 
     def configure_hip(self, hip: int = 0, workspace: Optional[Sequence[ArrayLike]] = None, **values: float) -> None:
         """Sets a HIP up anew. workspace: (origin, rotation matrix, scale), device to scene; None: the scene
-        chooses it. values: other fields of knurl_hip_desc, such as update_rate_hz, resolution, max_force, protections."""
+        chooses it. values: other fields of knurl_hip_desc, such as update_rate_hz, resolution, max_force,
+        protections."""
         desc = described("knurl_hip_desc")
         fill(desc, values)
         if workspace is not None:
@@ -261,7 +262,8 @@ class Scene(Owner):
 
     def tick(self, positions: ArrayLike, velocities: Optional[ArrayLike] = None, hip: int = 0,
              fields: Optional[Sequence[str]] = None) -> Ticks:
-        """A tick a row of positions (n, 3), device axes, m; velocities (n, 3), m/s, if they are known. In rows that a masked
+        """A tick a row of positions (n, 3), device axes, m; velocities (n, 3), m/s, if they are known. In rows that a
+        masked
         array masks the HIP is absent: no force, and contacts end. Returns n rows of knurl_tick_output, with its names:
         "force" (n, 3), "depth" (n), "surface" (n) ...; fields: only these, which saves memory (all are 288 bytes)."""
         rows = _rows(positions, 3, "f8", "positions")
@@ -282,7 +284,7 @@ class Scene(Owner):
 
     def chunks(self, positions: Union[ArrayLike, Iterable[ArrayLike]], rows: int = 65536, hip: int = 0,
                fields: Optional[Sequence[str]] = None) -> Iterator[Ticks]:
-        """The same ticks in parts of so many rows, for more of them than memory has room for. positions: an array, such as
+        """The same in parts of `rows` rows, for more ticks than fit into memory. positions: an array, such as
         a np.memmap, or an iterator of arrays, each of which is a part."""
         parts = (iter(positions) if isinstance(positions, Iterator) else
                  (positions[begin:begin + rows] for begin in range(0, len(positions), rows))) # type: ignore
@@ -290,7 +292,7 @@ class Scene(Owner):
             yield self.tick(part, hip=hip, fields=fields)
 
     def latest(self, hip: int = 0) -> Tuple[np.ndarray, np.ndarray]:
-        """The latest tick and the counts so far, also while a loop ticks the scene: a row of knurl_tick_output and one of
+        """The last tick and the counts so far, also while a loop ticks the scene: a row of knurl_tick_output and one of
         knurl_hip_counts."""
         output, counts = np.zeros(1, OUTPUTS), np.zeros(1, _COUNTS)
         check(lib.knurl_scene_get_tick(self.handle, hip, ffi.from_buffer("knurl_tick_output[]", output),
@@ -298,7 +300,8 @@ class Scene(Owner):
         return output[0], counts[0]
 
     def contacts(self, hip: int = 0) -> np.ndarray:
-        """All contacts of the HIP's last tick, rows of knurl_hip_contact: "surface", "proxy", "normal", "depth". While a loop
+        """All contacts of the HIP's last tick, rows of knurl_hip_contact: "surface", "proxy", "normal", "depth". While
+        a loop
         ticks the HIP, only within its tick_callback."""
         found = np.zeros(lib.KNURL_CONTACTS_MAX, _CONTACTS)
         own = self._hip(hip)

@@ -41,8 +41,8 @@ def _factor(field: str, unit: str) -> float:
 
 class Ticks(np.ndarray):
     """Rows of knurl_tick_output, or of some of its fields: `ticks["force"]` is (n, 3), `ticks["depth"]` is (n). A numpy
-    array with an update rate (`rate`, Hz), which slices keep; as_ticks() makes ticks of what numpy has made a plain array, as
-    np.concatenate() does."""
+    array with an update rate (`rate`, Hz), which slices keep; as_ticks() restores them after numpy returned a plain
+    array, as np.concatenate() does."""
 
     rate: Optional[float] = None
 
@@ -72,8 +72,10 @@ class Ticks(np.ndarray):
         return self.rate
 
     def to_frame(self, fields: Optional[Sequence[str]] = None, units: Optional[Mapping[str, str]] = None) -> Any:
-        """A pandas.DataFrame with a column a number: "depth", "force_x", "force_y", "force_z". fields: some of its fields (None:
-        all). units: other units than SI, such as {"depth": "mm", "force": "mN"}; `frame.attrs["units"]` has all. The index is
+        """A pandas.DataFrame with one column per number: "depth", "force_x", "force_y", "force_z". fields: some of its
+        fields (None:
+        all). units: other units than SI, such as {"depth": "mm", "force": "mN"}; `frame.attrs["units"]` has all. The
+        index is
         the time in s if there is the field "tick"."""
         import pandas
 
@@ -113,12 +115,13 @@ class Ticks(np.ndarray):
             steady = metrics.steady(height[begin:end], rate, found.hz)
             found.false_tones, found.felt_false_tones = steady["false_tones"], steady["felt_false_tones"]
             found.push, found.crest = steady["push"] / amplitude, steady["crest"] / amplitude
-            phase = 2j * np.pi * np.cumsum(hz[begin:end]) / rate # the hand's own: a constant hz would drift from it
+            phase = 2j * np.pi * np.cumsum(hz[begin:end]) / rate # of the hand itself: a constant hz would drift from it
             found.level = float(2.0 * abs(np.exp(phase) @ height[begin:end]) / (end - begin) / amplitude)
         return found
 
     def plot(self, axes: Optional[Sequence[Any]] = None) -> List[Any]:
-        """Draws temporal frequency, height and force over time with matplotlib, and returns the three axes. axes: three to
+        """Draws temporal frequency, height and force over time with matplotlib, and returns the three axes. axes: three
+        to
         draw into (None: a new figure). Needs the fields temporal_frequency, height, force and tick."""
         t = self._field("tick") / self._hz()
         if axes is None:
@@ -167,7 +170,8 @@ def _steady_stretch(hz: np.ndarray, rate: float) -> Tuple[int, int]:
 class Verdict:
     """Measures of a stroke. crossed, played: half cycles, of all ticks. The others are of the longest stretch, ticks
     `begin` to `end`, over which ridges pass at a steady `hz` (within 5 % for 0.25 s at least), NaN if there is none:
-    false_tones and felt_false_tones (shares of the power), level (of the line that keeps step with the hand; a square wave
+    false_tones and felt_false_tones (shares of the power), level (of the line that keeps step with the hand; a square
+    wave
     has 4/pi), push (the height that stays over 50 ms) and crest, in units of `amplitude`: see `metrics.steady`."""
 
     crossed: float

@@ -1,6 +1,6 @@
 """Executes the notebooks, cell by cell, and stores each cell's output and figures in it.
 usage: execute.py                 stores the outputs in the notebooks
-       execute.py --check FOLDER  changes no notebook: writes the pictures into FOLDER, and prints the time that each took
+       execute.py --check FOLDER  changes no notebook: writes the pictures into FOLDER, and prints the time of each
 SPDX-License-Identifier: MIT"""
 import ast
 import base64

@@ -1,5 +1,5 @@
-/* What the C# side checks before it calls anything: whose mirror this library belongs to, and where its compiler put
- * every field. SPDX-License-Identifier: MIT */
+/* Data that the C# side checks before any other call: a hash of the interface, and the offset of every field as
+ * compiled. SPDX-License-Identifier: MIT */
 #include "knurl_unity.h"
 
 #include "layout.g.h"
@@ -14,7 +14,7 @@ const char *knurl_unity_interface(void) {
 #define FIELD(type, field, name, at, bytes)                                                                            \
     {#type, name, (uint32_t)offsetof(type, field), (uint32_t)sizeof(((const type *)0)->field)},
 
-/* NOLINTNEXTLINE(bugprone-sizeof-expression): pointers' own sizes are meant */
+/* NOLINTNEXTLINE(bugprone-sizeof-expression): sizes of pointers are intended */
 static const knurl_unity_layout_row rows[] = {KNURL_UNITY_LAYOUT(STRUCT, FIELD)};
 
 uint32_t knurl_unity_layout(uint32_t index, knurl_unity_layout_row *row) {

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """Writes the C# side of Knurl's C interface from the headers themselves, as libclang reads them.
 
-Reads sdk/include/knurl/, bindings/common/session.h and knurl_unity.h beside this file; writes
-NativeMethods.g.cs (what C# calls), layout.g.h (where C# expects every field) and exports.g.def (what the plugin
-exports). With --check it writes nothing and fails where the files are not what the headers say.
+Reads sdk/include/knurl/, bindings/common/session.h and knurl_unity.h beside this file; writes NativeMethods.g.cs (the
+C# declarations), layout.g.h (the offset of each field in C#) and exports.g.def (the plugin's exports). With --check it
+writes nothing and fails if the files are out of date.
 
-What C# cannot have exactly as C has it, on Linux and on Windows, is refused with its file and line.
+Declarations without an exact equivalent in C#, on Linux and on Windows, are errors with file and line.
 Needs the package in requirements.txt and a C compiler's stddef.h and stdint.h.
 """
 import argparse
@@ -33,7 +33,7 @@ OUTPUTS = {
 }
 NOTE = "Generated from Knurl's headers by bindings/unity/native/mirror.py, which makes it anew; do not edit."
 WIDTH = 120
-DIFFERENCES = 16  # lines of them that are shown
+DIFFERENCES = 16  # lines of a difference that are printed
 
 NAMED = {"int32_t": "int", "uint32_t": "uint", "int64_t": "long", "uint64_t": "ulong", "size_t": "UIntPtr"}
 BUILT_IN = {
@@ -94,7 +94,7 @@ def spell(cursor, kind):
 
 
 def by_value(cursor, kind):
-    """The C# name of what is handed to or from a function."""
+    """The C# name of a parameter's or result's type."""
     if kind.get_canonical().kind == TypeKind.RECORD:
         refuse(cursor, f"'{kind.spelling}' goes by value, which compilers do differently")
     return spell(cursor, kind)
@@ -112,7 +112,7 @@ def wrapped(text, indent):
 
 
 class Mirror:
-    """Everything that the headers declare, as C# has it."""
+    """All declarations of the headers, as C# text."""
 
     def __init__(self, target):
         self.constants, self.structs, self.opaque, self.delegates, self.functions = {}, {}, [], [], {}
@@ -193,7 +193,7 @@ class Mirror:
         rows, end, align = [], 0, 1
         for field in cursor.get_children():
             if field.kind.is_attribute():
-                continue  # what it does to the layout is seen below
+                continue  # its effect on the layout is checked below
             if field.kind != CursorKind.FIELD_DECL or field.is_bitfield():
                 refuse(field, "only plain fields can be mirrored")
             if is_function_pointer(field.type) and field.type.kind == TypeKind.POINTER:
@@ -213,7 +213,7 @@ class Mirror:
         self.structs[cursor.spelling] = {"size": size, "align": align, "rows": rows}
 
     def field_rows(self, field):
-        """A field as C# has it: one row, or one an element where an array holds structs."""
+        """A field in C#: one row, or one per element for an array of structs."""
         kind, count = field.type, 1
         while kind.get_canonical().kind == TypeKind.CONSTANTARRAY:
             kind = kind.get_canonical() if kind.kind != TypeKind.CONSTANTARRAY else kind
@@ -292,7 +292,7 @@ def struct_lines(called, struct):
 
 
 def cs_body(mirror):
-    """What C# declares, from which the interface's digits are made."""
+    """The C# declarations, from which the interface's hash is computed."""
     types = []
     for opaque in mirror.opaque:
         types += [f"    internal struct {opaque} {{ }}", ""]
@@ -310,7 +310,7 @@ def cs_body(mirror):
 
 
 def cs_sizes(mirror):
-    """Of each struct by its name, without reflection, which ahead-of-time compilers take parts of away."""
+    """The size of each struct by its name, without reflection, which ahead-of-time compilers partly remove."""
     return "\n".join(f'                case "{called}": return sizeof({called});' for called in mirror.structs)
 
 

@@ -1,5 +1,5 @@
-/* What Unity calls when it loads the plugin and lets it go. It works as well where nobody does: then there is no log
- * and no profiler. All of it belongs to the game thread; the haptic thread never touches the engine.
+/* Functions that Unity calls when it loads and unloads the plugin. Without these calls the plugin works, too, but
+ * without log and profiler. All of it runs on the game thread; the haptic thread never calls the engine.
  * SPDX-License-Identifier: MIT */
 #include "knurl_unity.h"
 
@@ -20,7 +20,7 @@ static void forget_engine(void) {
     update_marker = NULL;
 }
 
-/* Unity may call it more than once; the newest interfaces count. */
+/* Unity may call it more than once; the last interfaces are used. */
 void UNITY_CALL UnityPluginLoad(const unity_interfaces *interfaces) {
     forget_engine();
     if (!interfaces || !interfaces->get_interface_split) {

@@ -1,6 +1,6 @@
-/* As much of Unity's native plugin interface as Knurl uses, declared here from what is documented: Unity's own headers
- * are under a licence of Unity's and come with an editor. tests/unity/native holds this file against them where it is
- * given a folder that has them (KNURL_UNITY_HEADERS). Good for Unity 2020.1 and later. SPDX-License-Identifier: MIT */
+/* The part of Unity's native plugin interface that Knurl uses, declared from its documentation: Unity's own headers
+ * come with an editor and under its licence. If KNURL_UNITY_HEADERS names a folder with those headers,
+ * tests/unity/native compares this file with them. Good for Unity 2020.1 and later. SPDX-License-Identifier: MIT */
 #ifndef KNURL_UNITY_ABI_H
 #define KNURL_UNITY_ABI_H
 
@@ -12,15 +12,16 @@
 #define UNITY_CALL
 #endif
 
-/** A place in a table of functions that is not used here. */
+/** An unused entry in a table of functions. */
 typedef void(UNITY_CALL *unity_unused)(void);
 
-/** What the engine hands to UnityPluginLoad(). The functions that are not used take their GUID as a struct by value,
- * which Unity's C++ passes otherwise than C does. */
+/** What the engine hands to UnityPluginLoad(). The unused functions take their GUID as a struct by value, which Unity's
+ * C++ and C pass differently. */
 typedef struct unity_interfaces {
     unity_unused get_interface;
     unity_unused register_interface;
-    void *(UNITY_CALL *get_interface_split)(unsigned long long high, unsigned long long low); /**< null: not here */
+    void *(UNITY_CALL *get_interface_split)(unsigned long long high,
+                                            unsigned long long low); /**< null: not available */
     unity_unused register_interface_split;
 } unity_interfaces;
 
@@ -41,15 +42,15 @@ enum { UNITY_PROFILER_SCRIPTS = 1 };     /**< a category */
 enum { UNITY_MARKER_DEFAULT = 0 };       /**< flags */
 enum { UNITY_BEGIN = 0, UNITY_END = 1 }; /**< events */
 
-/** The engine's; not looked into. */
+/** Opaque. */
 typedef struct unity_marker unity_marker;
 
-/** The engine's profiler; what follows in its table is not used. */
+/** The engine's profiler; the rest of its table is not used. */
 typedef struct unity_profiler {
     void(UNITY_CALL *emit_event)(const unity_marker *marker, uint16_t event, uint16_t data_count, const void *data);
-    int(UNITY_CALL *is_enabled)(void);   /**< 1: somebody records */
+    int(UNITY_CALL *is_enabled)(void);   /**< 1: the profiler records */
     int(UNITY_CALL *is_available)(void); /**< 0: the game was built without it */
-    /** 0, or why there is none. */
+    /** 0, or an error code. */
     int(UNITY_CALL *create_marker)(const unity_marker **marker, const char *name, uint16_t category, uint16_t flags,
                                    int data_count);
 } unity_profiler;

@@ -10,9 +10,9 @@ using UnityEngine.SceneManagement;
 
 namespace Knurl.Editing
 {
-    /// <summary>Warns of surfaces that a player would not feel as the editor does: Optimize Mesh Data leaves out UVs and
-    /// tangents that no material's shader looks at, and a grating's x comes from them. Scenes are looked at as they are
-    /// built, prefabs before.</summary>
+    /// <summary>Warns of surfaces that would feel different in a player than in the editor: Optimize Mesh Data removes
+    /// UVs and tangents that no material's shader uses, but a grating's x follows them. Checks scenes while they are
+    /// built, and prefabs before that.</summary>
     internal sealed class BuildCheck : IPreprocessBuildWithReport, IProcessSceneWithReport
     {
         public int callbackOrder
@@ -34,7 +34,7 @@ namespace Knurl.Editing
             }
         }
 
-        /// <summary>report: null where a scene is only played in the editor.</summary>
+        /// <summary>report: null if a scene is only played in the editor.</summary>
         public void OnProcessScene(Scene scene, BuildReport report)
         {
             if (report != null && PlayerSettings.stripUnusedMeshComponents)
@@ -65,7 +65,7 @@ namespace Knurl.Editing
                 && (drawn == null || !drawn.sharedMaterials.Any(HasTexture));
         }
 
-        /// <summary>A shader that takes a texture looks at UVs.</summary>
+        /// <summary>A shader with a texture uses UVs.</summary>
         static bool HasTexture(Material material)
         {
             Shader shader = material == null ? null : material.shader;

@@ -5,8 +5,8 @@ using UnityEngine;
 
 namespace Knurl.Editing
 {
-    /// <summary>A device in the scene view: the box that its stylus reaches and its axes; while it runs, the HIP, the
-    /// proxy that a surface holds back, and the force.</summary>
+    /// <summary>Draws a device in the scene view: its workspace and axes; while it runs, also the HIP, the proxy and
+    /// the force.</summary>
     internal static class DeviceGizmo
     {
         const float Axis = 0.01f; // m of the device's
@@ -15,8 +15,8 @@ namespace Knurl.Editing
         static readonly Color Box = new Color(1.0f, 0.62f, 0.2f);
         static readonly Color Proxy = new Color(0.2f, 0.9f, 1.0f);
 
-        /// <summary>m: what the devices reach, by the scheme of their URI. A Touch's is its maker's figure, a Falcon's
-        /// a cube of 4 inches; fake is a simulated Touch.</summary>
+        /// <summary>m: the workspace of each device, by the scheme of its URI. A Touch's is its maker's figure, a
+        /// Falcon's a cube of 4 inches; fake is a simulated Touch.</summary>
         static readonly Dictionary<string, Vector3> Reaches = new Dictionary<string, Vector3>
         {
             { "touch", new Vector3(0.160f, 0.120f, 0.070f) },
@@ -24,7 +24,7 @@ namespace Knurl.Editing
             { "fake", new Vector3(0.160f, 0.120f, 0.070f) },
         };
 
-        /// <summary>m of the device's motion; zero where that is not known ("mouse": what the game lets it).</summary>
+        /// <summary>m of the device's motion; zero if it is unknown ("mouse": no limits).</summary>
         internal static Vector3 ReachOf(string uri)
         {
             Vector3 reach;
@@ -46,7 +46,7 @@ namespace Knurl.Editing
             }
         }
 
-        /// <summary>x to the right and y up are Unity's; z is towards the user: against Unity's.</summary>
+        /// <summary>x to the right and y up, as in Unity; z towards the user, opposite to Unity's.</summary>
         static void DrawAxes()
         {
             Gizmos.color = Color.red;

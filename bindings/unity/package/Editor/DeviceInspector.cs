@@ -5,7 +5,7 @@ using UnityEngine;
 
 namespace Knurl.Editing
 {
-    /// <summary>Which device and how; in play mode what it is doing, and buttons to start and stop it.</summary>
+    /// <summary>Shows a device's settings; in play mode also its state, and buttons to start and stop it.</summary>
     [CustomEditor(typeof(KnurlDevice)), CanEditMultipleObjects]
     internal sealed class DeviceInspector : KnurlInspector
     {

@@ -3,8 +3,8 @@ using UnityEditor;
 
 namespace Knurl.Editing
 {
-    /// <summary>Stops every device before the editor takes away what it is made of: at the end of play mode,
-    /// before scripts are loaded anew, and when the editor quits.</summary>
+    /// <summary>Stops every device before the editor destroys its objects: at the end of play mode, before scripts are
+    /// reloaded, and when the editor quits.</summary>
     [InitializeOnLoad]
     internal static class DeviceLifetime
     {

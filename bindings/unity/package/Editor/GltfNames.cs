@@ -10,7 +10,7 @@ namespace Knurl.Editing
     /// <summary>The names that a glTF file gives to its nodes and their meshes.</summary>
     internal sealed class GltfNames
     {
-        // What JsonUtility fills in.
+        // Filled in by JsonUtility.
         [Serializable]
         internal sealed class Node
         {
@@ -35,7 +35,7 @@ namespace Knurl.Editing
         readonly HashSet<string> nodes = new HashSet<string>();
         readonly Dictionary<string, HashSet<string>> meshes = new Dictionary<string, HashSet<string>>();
 
-        /// <summary>Of a file that KnurlTags.Read has read.</summary>
+        /// <summary>Reads the names of a file that KnurlTags.Read has accepted.</summary>
         internal GltfNames(string path)
         {
             var gltf = JsonUtility.FromJson<Gltf>(GltfText.ReadJson(path));
@@ -48,7 +48,7 @@ namespace Knurl.Editing
                 nodes.Add(node.name);
                 if (mesh != "")
                 {
-                    MeshesOf(node.name != "" ? node.name : mesh).Add(mesh); // a tag's name is its node's, else its mesh's
+                    MeshesOf(node.name != "" ? node.name : mesh).Add(mesh); // named by its node, else its mesh
                 }
             }
         }
@@ -65,8 +65,8 @@ namespace Knurl.Editing
             return found;
         }
 
-        /// <summary>Whether an object of that name is what some node became. The asset's main object has the file's name,
-        /// whichever node it was.</summary>
+        /// <summary>True if a node has that name. The asset's main object has the file's name instead of its
+        /// node's.</summary>
         internal bool IsNode(string name)
         {
             return name != file && nodes.Contains(name);

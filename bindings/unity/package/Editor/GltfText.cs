@@ -5,15 +5,15 @@ using System.Text;
 
 namespace Knurl.Editing
 {
-    /// <summary>A first look into glTF files, so that those without tags cost no load, and no warning where they use
-    /// what Knurl does not read (compressed meshes, say).</summary>
+    /// <summary>A quick search in glTF files, so that those without tags are not loaded and cause no warnings about
+    /// features that Knurl does not support, such as compressed meshes.</summary>
     internal static class GltfText
     {
         const uint Magic = 0x46546C67; // "glTF"
         const int HeaderBytes = 20; // of a .glb and of its first chunk, which is the JSON
         static readonly byte[] Word = { (byte)'k', (byte)'n', (byte)'u', (byte)'r', (byte)'l' };
 
-        /// <summary>Whether "knurl" stands anywhere in the file's JSON, as it does in every tag.</summary>
+        /// <summary>True if the file's JSON contains "knurl", which every tag does.</summary>
         internal static bool MayHoldTags(string path)
         {
             using (FileStream file = File.OpenRead(path))
@@ -27,7 +27,7 @@ namespace Knurl.Editing
         {
             using (FileStream file = File.OpenRead(path))
             {
-                long length = JsonLength(file); // before it is read on
+                long length = JsonLength(file); // before the JSON is read
                 var bytes = new byte[Math.Min(length, file.Length - file.Position)];
                 int count = 0, read = -1;
                 while (count < bytes.Length && read != 0)
@@ -39,7 +39,7 @@ namespace Knurl.Editing
             }
         }
 
-        /// <summary>Leaves the file where its JSON begins, and returns how many bytes to look at.</summary>
+        /// <summary>Positions the file at the start of its JSON and returns the number of bytes to search.</summary>
         static long JsonLength(FileStream file)
         {
             var header = new byte[HeaderBytes];
@@ -55,7 +55,7 @@ namespace Knurl.Editing
         static bool Holds(Stream stream, long length)
         {
             var block = new byte[65536];
-            int matched = 0; // bytes of the word; no letter comes twice in it, so that a miss starts anew
+            int matched = 0; // bytes of the word; its letters differ, so that the search restarts after a mismatch
             while (length > 0)
             {
                 int count = stream.Read(block, 0, (int)Math.Min(length, block.Length));

@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace Knurl.Editing
 {
-    /// <summary>A grating's numbers with their units, what they come to, and presets to start from.</summary>
+    /// <summary>Shows a grating's values with their units, their effect, and presets to start from.</summary>
     [CustomEditor(typeof(KnurlGrating)), CanEditMultipleObjects]
     internal sealed class GratingInspector : Editor
     {
@@ -46,7 +46,7 @@ namespace Knurl.Editing
             }
         }
 
-        /// <summary>What the Project window shows of it, presets included.</summary>
+        /// <summary>The thumbnail for the Project window, of presets too.</summary>
         public override Texture2D RenderStaticPreview(string assetPath, Object[] subAssets, int width, int height)
         {
             var picture = new Texture2D(width, height, TextureFormat.RGBA32, false);
@@ -64,7 +64,7 @@ namespace Knurl.Editing
             Copy(new SerializedObject(preset), serializedObject);
         }
 
-        /// <summary>Every number of one grating into another, to be undone in one step.</summary>
+        /// <summary>Copies all values of one grating into another, as one undo step.</summary>
         internal static void Copy(SerializedObject from, SerializedObject to)
         {
             to.Update();
@@ -75,7 +75,7 @@ namespace Knurl.Editing
             to.ApplyModifiedProperties();
         }
 
-        /// <summary>Why it cannot be felt; null where it can.</summary>
+        /// <summary>Why it cannot be felt; null if it can.</summary>
         static string FindWrong(KnurlGrating grating)
         {
             Vector2 frequency = grating.SpatialFrequency;

@@ -5,7 +5,7 @@ using UnityEngine;
 
 namespace Knurl.Editing
 {
-    /// <summary>What the inspectors of a device and a surface have in common.</summary>
+    /// <summary>Common base of the inspectors of a device and a surface.</summary>
     internal abstract class KnurlInspector : Editor
     {
         bool showEvents;
@@ -20,7 +20,7 @@ namespace Knurl.Editing
             EditorGUILayout.PropertyField(serializedObject.FindProperty(field), label);
         }
 
-        /// <summary>Behind a foldout.</summary>
+        /// <summary>Draws event fields in a foldout.</summary>
         protected void DrawEvents(string[] fields)
         {
             showEvents = EditorGUILayout.Foldout(showEvents, "Events", true);
@@ -38,7 +38,7 @@ namespace Knurl.Editing
             }
         }
 
-        /// <summary>Gives a field a value, as one step that can be undone.</summary>
+        /// <summary>Changes a field, as one undo step.</summary>
         protected void Change(string field, Action<SerializedProperty> change)
         {
             if (target == null)

@@ -9,7 +9,7 @@ using Object = UnityEngine.Object;
 
 namespace Knurl.Editing
 {
-    /// <summary>What Knurl adds to the editor's menus.</summary>
+    /// <summary>Knurl's entries in the editor's menus.</summary>
     internal static class KnurlMenu
     {
         const string Objects = "GameObject/Knurl/";
@@ -20,7 +20,7 @@ namespace Knurl.Editing
         const string ReadTags = "Assets/Knurl/Read Tags";
         const int Priority = 10; // among the kinds of objects
 
-        /// <summary>Its box about the selected surfaces, where there are any.</summary>
+        /// <summary>Creates a device, with its workspace around the selected surfaces if there are any.</summary>
         [MenuItem(NewDevice, false, Priority)]
         static void MakeDevice(MenuCommand command)
         {
@@ -34,7 +34,7 @@ namespace Knurl.Editing
             }
         }
 
-        /// <summary>To be seen in the game: a ball where a device feels.</summary>
+        /// <summary>Creates a ball that shows a device's position in the game.</summary>
         [MenuItem(NewCursor, false, Priority)]
         static void MakeCursor(MenuCommand command)
         {
@@ -74,7 +74,7 @@ namespace Knurl.Editing
             string path = FileOf(root);
             if (path == null)
             {
-                return; // nobody chose one
+                return; // the user cancelled
             }
             int tags = TagImporter.Import(path);
             if (tags > 0)
@@ -108,7 +108,7 @@ namespace Knurl.Editing
             }
         }
 
-        /// <summary>The glTF file that an object was made of, or one that the user chooses; null: none.</summary>
+        /// <summary>The glTF file of an imported object, or one that the user chooses; null: cancelled.</summary>
         static string FileOf(GameObject root)
         {
             string path = PrefabUtility.GetPrefabAssetPathOfNearestInstanceRoot(root);

@@ -6,11 +6,11 @@ using UnityEngine;
 
 namespace Knurl.Editing
 {
-    /// <summary>Where new objects go: where Unity's own do, or where the selected surfaces are.</summary>
+    /// <summary>Positions new objects as Unity does, or at the selected surfaces.</summary>
     internal static class Placing
     {
-        /// <summary>Below parent; without one in the stage that is open (a scene, a prefab), where the scene view looks.
-        /// Can be undone; selects it.</summary>
+        /// <summary>Places an object below parent, or, if that is null, in the open stage (scene or prefab) in the
+        /// middle of the scene view. Registers undo and selects it.</summary>
         internal static void Place(GameObject made, GameObject parent)
         {
             if (parent != null)
@@ -30,7 +30,7 @@ namespace Knurl.Editing
             Selection.activeGameObject = made;
         }
 
-        /// <summary>The middle of the selected surfaces; false where none is selected.</summary>
+        /// <summary>The centre of the selected surfaces; false if no surface is selected.</summary>
         internal static bool FindSelectedSurfaces(out Vector3 middle)
         {
             Renderer[] felt = Selection.gameObjects.Where(each => each.GetComponent<KnurlSurface>() != null)

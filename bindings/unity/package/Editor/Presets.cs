@@ -22,22 +22,22 @@ namespace Knurl.Editing
                 .ToArray();
         }
 
-        /// <summary>What stands in the menu: "paper_0_5mm: 2000 /m, 0.27 mm, 700 N/m".</summary>
+        /// <summary>The text in the menu: "paper_0_5mm: 2000 /m, 0.27 mm, 700 N/m".</summary>
         internal static string Title(KnurlGrating preset)
         {
             return preset.name + ": " + Units.Frequency(preset.SpatialFrequency) + ", " +
                 Units.Millimetres(preset.Amplitude) + ", " + Units.Number(preset.Stiffness) + " N/m";
         }
 
-        /// <summary>Whether a grating is the package's: it cannot be edited, or would be changed for every project that has
-        /// this package from the same disk.</summary>
+        /// <summary>True if a grating belongs to the package: it cannot be edited, because that would change it for
+        /// every project that uses the same copy of the package.</summary>
         internal static bool IsPreset(KnurlGrating grating)
         {
             return grating != null
                 && AssetDatabase.GetAssetPath(grating).StartsWith(Folder + "/", StringComparison.Ordinal);
         }
 
-        /// <summary>A new asset of the project's own with a preset's numbers.</summary>
+        /// <summary>A new asset in the project with a preset's values.</summary>
         internal static KnurlGrating Copy(KnurlGrating preset)
         {
             var made = ScriptableObject.CreateInstance<KnurlGrating>();
@@ -45,7 +45,7 @@ namespace Knurl.Editing
             return Save(made, preset.name);
         }
 
-        /// <summary>A new asset with the numbers that every grating begins with.</summary>
+        /// <summary>A new asset with default values.</summary>
         internal static KnurlGrating New()
         {
             return Save(ScriptableObject.CreateInstance<KnurlGrating>(), "Grating");

@@ -5,13 +5,13 @@ using UnityEngine;
 
 namespace Knurl.Editing
 {
-    /// <summary>Read/Write of meshes, where the project's own import settings say it.</summary>
+    /// <summary>Makes meshes readable, if the project's import settings control it.</summary>
     internal static class Readable
     {
-        // Of importers that are not Unity's own: UnityGLTF's field.
+        // UnityGLTF's field, for a mesh that Unity's own importer did not import.
         const string Field = "_readWriteEnabled";
 
-        /// <summary>Whether a mesh that cannot be read can be made readable here.</summary>
+        /// <summary>True if an unreadable mesh can be made readable here.</summary>
         internal static bool CanMake(Mesh mesh)
         {
             AssetImporter importer = Find(mesh);

@@ -7,15 +7,15 @@ using UnityEngine.Rendering;
 
 namespace Knurl.Editing
 {
-    /// <summary>The ridges of a selected surface, where they are felt.</summary>
+    /// <summary>Draws the ridges of a selected surface at the places where they are felt.</summary>
     internal static class SurfaceGizmo
     {
         const int MostSegments = 8192;
-        const int MostTriangles = 200000; // of more, the editor would stutter while they are moved
-        const float TowardsEye = 0.999f; // else half of each line is hidden by the mesh that it lies in
+        const int MostTriangles = 200000; // with more triangles, the editor would stutter while the surface is moved
+        const float TowardsEye = 0.999f; // otherwise half of each line is hidden by the mesh
         static readonly Color Ink = new Color(1.0f, 0.62f, 0.2f, 0.8f);
 
-        /// <summary>What was drawn last, for it changes seldom.</summary>
+        /// <summary>The last drawing, cached because it rarely changes.</summary>
         sealed class Drawing
         {
             internal Mesh Mesh;
@@ -121,7 +121,7 @@ namespace Knurl.Editing
             return all.ToArray();
         }
 
-        /// <summary>Every is 0 where there are too many triangles.</summary>
+        /// <summary>Sets Every to 0 if there are too many triangles.</summary>
         static void Lay(Drawing drawing)
         {
             drawing.Segments = new Vector3[0];

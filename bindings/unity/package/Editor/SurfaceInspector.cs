@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace Knurl.Editing
 {
-    /// <summary>A surface's settings, and why it cannot be felt, or not as asked for.</summary>
+    /// <summary>Shows a surface's settings and warnings.</summary>
     [CustomEditor(typeof(KnurlSurface)), CanEditMultipleObjects]
     internal sealed class SurfaceInspector : KnurlInspector
     {
@@ -53,7 +53,7 @@ namespace Knurl.Editing
             }
         }
 
-        /// <summary>What is chosen is the project's own, to be edited: a preset is copied.</summary>
+        /// <summary>The chosen grating can be edited: a preset is copied into the project first.</summary>
         void DrawGratings()
         {
             Presets.Draw(preset => Take(Presets.Copy(preset)));
@@ -75,7 +75,7 @@ namespace Knurl.Editing
 
         void ShowState(KnurlSurface surface)
         {
-            bool laysOut = Event.current.type == EventType.Layout; // what is drawn has to be what was laid out
+            bool laysOut = Event.current.type == EventType.Layout; // only draw the controls that were laid out
             if (laysOut && EditorApplication.timeSinceStartup >= lookAgain)
             {
                 warnings = WarningsOf(surface);
@@ -101,7 +101,7 @@ namespace Knurl.Editing
             }
         }
 
-        /// <summary>Never throws: an inspector that does draws nothing below.</summary>
+        /// <summary>Never throws: after an exception, an inspector draws nothing more.</summary>
         static string[] WarningsOf(KnurlSurface surface)
         {
             try

@@ -10,11 +10,11 @@ using Object = UnityEngine.Object;
 
 namespace Knurl.Editing
 {
-    /// <summary>What the tags of a glTF file are in a Unity project. Assets that Knurl made carry a label, and only
-    /// those are ever changed.</summary>
+    /// <summary>Grating assets of a glTF file's tags. Assets made by Knurl have a label, and only those are
+    /// changed.</summary>
     internal static class TagAssets
     {
-        /// <summary>On each asset that was made of a tag; without it, an asset is the user's.</summary>
+        /// <summary>Marks assets that were made from a tag; assets without it belong to the user.</summary>
         internal const string Label = "KnurlTag";
 
         const int LongestName = 80; // characters; Windows has trouble with long paths
@@ -25,14 +25,14 @@ namespace Knurl.Editing
             "lpt2", "lpt3", "lpt4", "lpt5", "lpt6", "lpt7", "lpt8", "lpt9", "cvs",
         };
 
-        /// <summary>Where the gratings of a file lie: "Assets/Models/plate.glb Gratings".</summary>
+        /// <summary>The folder of a file's gratings: "Assets/Models/plate.glb Gratings".</summary>
         internal static string FolderOf(string gltf)
         {
             return gltf + " Gratings";
         }
 
-        /// <summary>The path of each surface's grating: names that every file system takes, and no two the same where
-        /// capitals do not count.</summary>
+        /// <summary>The path of each surface's grating: valid on every file system, and unique even if case is
+        /// ignored.</summary>
         internal static string[] PathsOf(string gltf, IEnumerable<string> surfaces)
         {
             var taken = new HashSet<string>(StringComparer.OrdinalIgnoreCase);
@@ -47,7 +47,7 @@ namespace Knurl.Editing
                 clean.Append(char.IsControl(c) || char.IsSurrogate(c) || Invalid.IndexOf(c) >= 0 ? '_' : c);
             }
             string cut = clean.Length > LongestName ? clean.ToString(0, LongestName) : clean.ToString();
-            cut = cut.Trim().TrimStart('.').TrimEnd('.', '~', ' '); // Unity does not look at .x and x~
+            cut = cut.Trim().TrimStart('.').TrimEnd('.', '~', ' '); // Unity ignores .x and x~
             bool reserved = Array.IndexOf(Reserved, cut.Split('.')[0].TrimEnd().ToLowerInvariant()) >= 0;
             return cut.Length == 0 ? "surface" : reserved ? "_" + cut : cut;
         }
@@ -62,7 +62,7 @@ namespace Knurl.Editing
             return candidate;
         }
 
-        /// <summary>Makes or updates the grating of each tag. Returns what was not made, a sentence each.</summary>
+        /// <summary>Makes or updates the grating of each tag. Returns the failures, one sentence each.</summary>
         internal static List<string> Write(string gltf, IReadOnlyList<KnurlTag> tags)
         {
             var refused = new List<string>();
@@ -88,7 +88,7 @@ namespace Knurl.Editing
             foreach (string path in made)
             {
                 AssetDatabase.SetLabels(AssetDatabase.LoadMainAssetAtPath(path), new[] { Label });
-                AssetDatabase.WriteImportSettingsIfDirty(path); // labels stand in the meta
+                AssetDatabase.WriteImportSettingsIfDirty(path); // labels are in the meta
             }
             return refused;
         }
@@ -118,7 +118,7 @@ namespace Knurl.Editing
             }
         }
 
-        /// <summary>Returns whether anything is another.</summary>
+        /// <summary>Returns true if it changed anything.</summary>
         internal static bool Put(KnurlTag tag, KnurlGrating grating)
         {
             bool same = grating.SpatialFrequency == tag.SpatialFrequency && grating.Amplitude == tag.Amplitude
@@ -141,7 +141,7 @@ namespace Knurl.Editing
             }
         }
 
-        /// <summary>After a file was moved or renamed: its gratings come along, and keep what refers to them.</summary>
+        /// <summary>Moves the gratings along with a moved or renamed file; references to them stay valid.</summary>
         internal static void Move(string from, string to)
         {
             if (AssetDatabase.IsValidFolder(FolderOf(from)) && !AssetDatabase.IsValidFolder(FolderOf(to)))

@@ -7,9 +7,8 @@ using UnityEngine;
 
 namespace Knurl.Editing
 {
-    /// <summary>Reads the tags of every .gltf and .glb file that comes into the project, or changes, by Knurl's own
-    /// loader: it does not matter which glTF importer is installed, or whether any is. What is wrong with a tag is a
-    /// warning that names file, object and key; what is right becomes gratings.</summary>
+    /// <summary>Reads the tags of every new or changed .gltf and .glb file with Knurl's own loader, independently of
+    /// any glTF importer. Tags become gratings; a wrong tag gives a warning that names file, object and key.</summary>
     internal sealed class TagImporter : AssetPostprocessor
     {
         static void OnPostprocessAllAssets(string[] imported, string[] deleted, string[] moved, string[] movedFrom)
@@ -30,7 +29,7 @@ namespace Knurl.Editing
             }
         }
 
-        /// <summary>Whether Knurl looks at an asset: packages cannot be written to.</summary>
+        /// <summary>True if Knurl imports an asset. Packages are read-only.</summary>
         internal static bool IsGltf(string path)
         {
             return path.StartsWith("Assets/", StringComparison.Ordinal)
@@ -38,8 +37,8 @@ namespace Knurl.Editing
                     || path.EndsWith(".glb", StringComparison.OrdinalIgnoreCase));
         }
 
-        /// <summary>One file. Never throws: other importers come after this one. Returns how many tags there were, or
-        /// -1 after a warning.</summary>
+        /// <summary>Imports one file. Never throws, because other importers run after this one. Returns the number of
+        /// tags, or -1 after a warning.</summary>
         internal static int Import(string path)
         {
             try

@@ -7,14 +7,14 @@ using UnityEngine;
 
 namespace Knurl.Editing
 {
-    /// <summary>Puts the tagged surfaces of a glTF file onto the objects that an importer made of it: by the names of
-    /// objects and meshes, which all importers keep, but for a sole root: that becomes the asset's main object, and Unity
-    /// names it after the file.</summary>
+    /// <summary>Adds the tagged surfaces of a glTF file to the objects that an importer made from it. Objects are found
+    /// by the names of objects and meshes, which all importers keep; only a single root becomes the asset's main
+    /// object, which Unity names after the file.</summary>
     internal static class TagSurfaces
     {
         const string PartMark = " / "; // Knurl's names are "node / material" where a mesh has several primitives
 
-        /// <summary>What of an object's names speaks for a tag: the surest first.</summary>
+        /// <summary>Kinds of matches between an object's names and a tag, the most certain first.</summary>
         enum Match
         {
             ObjectAndMesh,
@@ -22,9 +22,9 @@ namespace Knurl.Editing
             Mesh,
         }
 
-        /// <summary>Adds a KnurlSurface, or updates the one that is there, on the object of each tag at or below root.
-        /// gratings: one for each tag, or null. names: of the file. Can be undone in one step. Returns what could not be
-        /// placed, a sentence each.</summary>
+        /// <summary>Adds or updates a KnurlSurface on the object of each tag at or below root. gratings: one for each
+        /// tag, or null. names: of the file. One undo step. Returns the tags that could not be placed, one sentence
+        /// each.</summary>
         internal static List<string> Apply(GameObject root, IReadOnlyList<KnurlTag> tags,
             IReadOnlyList<KnurlGrating> gratings, GltfNames names)
         {
@@ -43,7 +43,7 @@ namespace Knurl.Editing
             }
             if (tags.Count == 1 && meshes.Length == 1)
             {
-                found[0] = meshes[0].gameObject; // whatever it is called
+                found[0] = meshes[0].gameObject; // whatever its name is
             }
             return Place(root, tags, gratings, meshes, found, used);
         }
@@ -79,13 +79,13 @@ namespace Knurl.Editing
             return missed;
         }
 
-        /// <summary>The first object that is not taken and matches.</summary>
+        /// <summary>The first matching object that is not used yet.</summary>
         static GameObject Find(MeshFilter[] meshes, string tag, GltfNames names, Match match,
             Dictionary<GameObject, string> used)
         {
             HashSet<string> own = names.MeshesOf(Candidates(tag).Last());
             string material = MaterialOf(tag);
-            bool isShown = meshes.Any(mesh => Shows(mesh, material)); // else importers have other materials
+            bool isShown = meshes.Any(mesh => Shows(mesh, material)); // otherwise importers have other materials
             IEnumerable<MeshFilter> free = meshes.Where(mesh => !used.ContainsKey(mesh.gameObject)
                 && (!isShown || Shows(mesh, material)));
             if (match != Match.Object)
@@ -106,7 +106,7 @@ namespace Knurl.Editing
             return first == null ? null : first.gameObject;
         }
 
-        /// <summary>"Steel" of "Plate / Steel (2)"; null where the tag is all of its mesh's.</summary>
+        /// <summary>"Steel" of "Plate / Steel (2)"; null if the tag is for the whole mesh.</summary>
         static string MaterialOf(string tag)
         {
             string once = WithoutNumber(tag);
@@ -121,8 +121,8 @@ namespace Knurl.Editing
                 && drawn.sharedMaterials.Any(shown => shown != null && shown.name == material);
         }
 
-        /// <summary>What the object of a tag may be called: as the tag; without the number that Knurl puts behind names
-        /// that come twice, and with glTFast's, which counts from the second on; without the material's.</summary>
+        /// <summary>Possible names of a tag's object: the tag's name; without the number that Knurl appends to repeated
+        /// names, or with glTFast's number, which starts at the second one; without the material's name.</summary>
         internal static IEnumerable<string> Candidates(string name)
         {
             yield return name;
@@ -169,7 +169,7 @@ namespace Knurl.Editing
             Undo.RecordObject(surface, "Add Knurl Surfaces");
             surface.Grating = grating;
             surface.DoubleSided = tag.DoubleSided;
-            if (tag.Axis != Vector3.zero) // else it may have one of its own
+            if (tag.Axis != Vector3.zero) // otherwise it keeps its own
             {
                 surface.Axis = Axes.ToMesh(tag.Axis, owner.transform.localToWorldMatrix);
             }

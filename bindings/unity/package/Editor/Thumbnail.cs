@@ -17,7 +17,7 @@ namespace Knurl.Editing
             for (int i = 0; i < pixels.Length; i++)
             {
                 float u = Side * ((i % width + 0.5f) / width - 0.5f), v = Side * ((i / width + 0.5f) / height - 0.5f);
-                float x = cos * u + sin * v, y = cos * v - sin * u; // counter-clockwise, as it is felt
+                float x = cos * u + sin * v, y = cos * v - sin * u; // counter-clockwise, as felt
                 float waves = Mathf.Cos(2f * Mathf.PI * grating.SpatialFrequency.x * x)
                     * Mathf.Cos(2f * Mathf.PI * grating.SpatialFrequency.y * y);
                 pixels[i] = grating.Amplitude == 0f || waves >= 0f ? High : Low;

@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace Knurl.Editing
 {
-    /// <summary>Numbers with units, as people read them, the same in every country.</summary>
+    /// <summary>Formats numbers with units, independent of the locale.</summary>
     internal static class Units
     {
         internal static string Number(double value)
@@ -12,25 +12,25 @@ namespace Knurl.Editing
             return value.ToString("0.###", CultureInfo.InvariantCulture);
         }
 
-        /// <summary>Of a length in m.</summary>
+        /// <summary>Formats a length in m.</summary>
         internal static string Millimetres(double metres)
         {
             return Number(1e3 * metres) + " mm";
         }
 
-        /// <summary>Of a place in m, to a tenth of a millimetre.</summary>
+        /// <summary>Formats a position in m, to a tenth of a millimetre.</summary>
         internal static string Place(Vector3 metres)
         {
             return string.Format(CultureInfo.InvariantCulture, "{0:F4}, {1:F4}, {2:F4}", metres.x, metres.y, metres.z);
         }
 
-        /// <summary>Of spatial frequencies in 1/m: one number where the other is 0.</summary>
+        /// <summary>Formats spatial frequencies in 1/m: one number if the other is 0.</summary>
         internal static string Frequency(Vector2 perMetre)
         {
             return Number(perMetre.x) + (perMetre.y != 0.0f ? " x " + Number(perMetre.y) : "") + " /m";
         }
 
-        /// <summary>What a grating is, in a sentence. Spatial frequency in 1/m, amplitude in m.</summary>
+        /// <summary>Describes a grating in a sentence. Spatial frequency in 1/m, amplitude in m.</summary>
         internal static string Describe(Vector2 frequency, float amplitude)
         {
             bool alongX = frequency.x > 0.0f;

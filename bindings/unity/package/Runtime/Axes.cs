@@ -3,8 +3,8 @@ using UnityEngine;
 
 namespace Knurl
 {
-    /// <summary>Unity is left-handed, Knurl's scene is glTF's, right-handed: x is mirrored, as glTF importers for Unity
-    /// do it, so that a file's surfaces lie where its meshes are drawn. A matrix M becomes F M F with
+    /// <summary>Unity is left-handed, Knurl's scene is glTF's, right-handed: x is mirrored, as in glTF importers for
+    /// Unity, so that a file's surfaces coincide with its meshes. A matrix M becomes F M F with
     /// F = diag(-1, 1, 1).</summary>
     internal static unsafe class Axes
     {
@@ -16,7 +16,7 @@ namespace Knurl
             scene[2] = unity.z;
         }
 
-        /// <summary>Unlike Vector3.Equals(), true of what is no number as well.</summary>
+        /// <summary>Exact comparison; unlike Vector3.Equals(), also true for two NaN.</summary>
         internal static bool IsSame(Vector3 a, Vector3 b)
         {
             return a.x.Equals(b.x) && a.y.Equals(b.y) && a.z.Equals(b.z);
@@ -45,14 +45,14 @@ namespace Knurl
             rows[11] = unity->m23;
         }
 
-        /// <summary>The workspace of a device that stands at a position (m) and is turned by a rotation: its x to the
+        /// <summary>The workspace of a device with a position (m) and a rotation: its x to the
         /// right, its y up, its z towards the user, who looks along Unity's z. In scene axes that is F R D with
         /// D = diag(1, 1, -1): a proper rotation.</summary>
         internal static void ToWorkspace(Vector3 position, Quaternion rotation, double scale,
             knurl_workspace* workspace)
         {
             double x = rotation.x, y = rotation.y, z = rotation.z, w = rotation.w;
-            double twice = 2.0 / (x * x + y * y + z * z + w * w); // a float's quaternion is not quite of length 1
+            double twice = 2.0 / (x * x + y * y + z * z + w * w); // a quaternion of floats is not exactly of length 1
             double* r = workspace->rotation;
             NativeMethods.knurl_workspace_set_identity(workspace);
             ToScene(position, workspace->origin);
@@ -68,8 +68,9 @@ namespace Knurl
             r[8] = -(1.0 - twice * (x * x + y * y));
         }
 
-        /// <summary>A stylus's rotation from its own axes, whose z is towards the user, as that of an object that looks
-        /// along its z: M becomes F M D. F M F is the quaternion (x, -y, -z, w), F D half a turn about y. The identity
+        /// <summary>A stylus's rotation from its own axes, whose z is towards the user, as the rotation of an object
+        /// that points along its z: M becomes F M D. F M F is the quaternion (x, -y, -z, w), F D half a turn about y.
+        /// The identity
         /// for zeros.</summary>
         internal static Quaternion ToRotation(double* q)
         {
@@ -77,8 +78,8 @@ namespace Knurl
                 : new Quaternion((float)q[2], (float)q[3], (float)q[0], (float)q[1]);
         }
 
-        /// <summary>The direction in a mesh that an object's scale, shear and mirror turn into another, which is given in
-        /// the object's own axes: what <see cref="KnurlTag.Axis"/> is for <see cref="KnurlSurface.Axis"/>. Zero where the
+        /// <summary>The direction in a mesh that an object's scale, shear and mirror map to a given direction in the
+        /// object's own axes: converts <see cref="KnurlTag.Axis"/> to <see cref="KnurlSurface.Axis"/>. Zero if the
         /// object has no volume.</summary>
         internal static Vector3 ToMesh(Vector3 scaled, Matrix4x4 place)
         {

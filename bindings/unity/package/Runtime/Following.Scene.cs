@@ -1,4 +1,4 @@
-// What a follower does to the scene. SPDX-License-Identifier: MIT
+// Changes of the scene by a follower. SPDX-License-Identifier: MIT
 using UnityEngine;
 
 namespace Knurl
@@ -12,8 +12,8 @@ namespace Knurl
             return NativeMethods.knurl_session_split_pose(rows, pose) != 0;
         }
 
-        /// <summary>Adds the surface to the scene, or replaces it there, so that contact goes on. Removes it where it
-        /// cannot be felt.</summary>
+        /// <summary>Adds the surface to the scene, or replaces it there without ending contact. Removes it if it cannot
+        /// be felt.</summary>
         void Put(KnurlSurface surface, Follower* f)
         {
             knurl_session_pose pose;
@@ -50,7 +50,7 @@ namespace Knurl
             return PutMesh(surface, MeshReader.Read(mesh, pose->rest), f, pose);
         }
 
-        /// <summary>A body that is not interpolated moves its objects in physics steps.</summary>
+        /// <summary>A body without interpolation moves its objects in physics steps.</summary>
         internal static bool IsMovedBySteps(Component moved)
         {
             var body = moved.GetComponentInParent<Rigidbody>();
@@ -75,7 +75,7 @@ namespace Knurl
             Copy(pose->position, desc.position, 3);
             Copy(pose->quaternion, desc.rotation, 4);
             Axes.ToScene(surface.Axis, axis);
-            Axes.Multiply(pose->rest, axis, desc.axis); // the axis is the mesh's: scaled like it
+            Axes.Multiply(pose->rest, axis, desc.axis); // the axis is in the mesh's axes: scaled like the mesh
             fixed (byte* name = Utf8.Bytes(surface.name.Replace('\0', ' '), "name"))
             fixed (float* positions = data.Positions, tangents = data.Tangents, uvs = data.Uvs)
             fixed (uint* indices = data.Indices)
@@ -94,7 +94,7 @@ namespace Knurl
         {
             if (f->id != 0)
             {
-                NativeMethods.knurl_scene_remove_surface(scene, f->id); // what that ended is told by the session
+                NativeMethods.knurl_scene_remove_surface(scene, f->id); // the session reports the end of a contact
                 f->id = 0;
             }
         }
@@ -129,8 +129,9 @@ namespace Knurl
             }
         }
 
-        /// <summary>Finds the tangent plane, at its anchor, of the nearest surface that a ray hits. Where it hits none, a
-        /// plane that is known stays, else the first surface's is taken. Returns whether there is one.</summary>
+        /// <summary>Finds the tangent plane, at its anchor, of the nearest surface that a ray hits. If it hits no
+        /// surface, a known plane is kept, otherwise the first surface's is used. Returns false if there is no
+        /// plane.</summary>
         internal bool FindPlane(Ray ray, ref Plane plane, bool isKnown)
         {
             knurl_surface_info info;
@@ -169,7 +170,7 @@ namespace Knurl
             return isInside;
         }
 
-        /// <summary>Whether it went well.</summary>
+        /// <summary>Returns true on success; logs an error otherwise.</summary>
         static bool Tell(KnurlSurface surface, int result)
         {
             if (result != NativeMethods.KNURL_OK)

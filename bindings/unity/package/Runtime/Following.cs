@@ -5,29 +5,29 @@ using UnityEngine;
 
 namespace Knurl
 {
-    /// <summary>The state of each enabled surface in one session's scene. Main thread. A frame allocates nothing, and makes
-    /// no native call for what stands still.</summary>
+    /// <summary>The state of each enabled surface in one session's scene. Main thread. A frame allocates nothing, and
+    /// makes no native call for surfaces that do not move.</summary>
     internal sealed unsafe partial class Following
     {
         struct Follower
         {
-            internal ulong id;       // in the scene, or 0: it is not there
-            internal int made, felt; // of its surface, when it was last added or given a material
-            internal int isFlat;     // 1: scaled to nothing, so not in the scene
+            internal ulong id;       // in the scene; 0: not in the scene
+            internal int made, felt; // of its surface, at the last change of its mesh or material
+            internal int isFlat;     // 1: its scale is zero, so it is not in the scene
             internal int isOnLayer;  // 1: it has a layer in common with the device
             internal Matrix4x4 seen; // of its transform
             internal knurl_session_way way;
-            internal fixed double rest[9]; // scale, shear and mirror that are worked into its mesh
+            internal fixed double rest[9]; // scale, shear and mirror baked into its mesh
         }
 
         readonly SessionHandle session;
-        readonly knurl_scene* scene; // the session's own: as long as that one lives
+        readonly knurl_scene* scene; // owned by the session
         KnurlSurface[] surfaces = new KnurlSurface[16];
         Transform[] transforms = new Transform[16];
         Follower[] followers = new Follower[16];
         int count;
         long gratingsSeen;
-        int layers; // the device's
+        int layers; // of the device
 
         internal Following(SessionHandle session, int layers)
         {
@@ -36,7 +36,7 @@ namespace Knurl
             scene = NativeMethods.knurl_session_get_scene(session);
         }
 
-        /// <summary>Adds all surfaces that are enabled, in the order of enabling. Errors go to the console.</summary>
+        /// <summary>Adds all enabled surfaces, in the order of enabling. Errors go to the console.</summary>
         internal void Fill()
         {
             for (int i = 0; i < Registry.Surfaces.Count; i++)
@@ -46,8 +46,8 @@ namespace Knurl
             Follow(layers);
         }
 
-        /// <summary>A surface that was enabled: it is added by the next <see cref="Follow"/>, with all that is set
-        /// until then.</summary>
+        /// <summary>Adds a newly enabled surface at the next <see cref="Follow"/>, with its settings at that
+        /// time.</summary>
         internal void Add(KnurlSurface surface)
         {
             if (count == surfaces.Length)
@@ -62,7 +62,7 @@ namespace Knurl
             count++;
         }
 
-        /// <summary>A surface that is disabled, or gone: it is removed at once.</summary>
+        /// <summary>Removes a surface that was disabled or destroyed.</summary>
         internal void Drop(KnurlSurface surface)
         {
             int i = IndexOf(surface);
@@ -82,7 +82,7 @@ namespace Knurl
             transforms[count] = null;
         }
 
-        /// <summary>Takes all out of a scene that stays, because a file brought others.</summary>
+        /// <summary>Removes all surfaces from a scene that is kept because of surfaces from a file.</summary>
         internal void Clear()
         {
             while (count > 0)
@@ -91,7 +91,8 @@ namespace Knurl
             }
         }
 
-        /// <summary>Once a frame: adds what is new, moves what has moved, gives what was changed another material.</summary>
+        /// <summary>Call once per frame: adds new surfaces, moves those that moved, and updates changed
+        /// materials.</summary>
         internal void Follow(int layersOfDevice)
         {
             layers = layersOfDevice;
@@ -120,7 +121,7 @@ namespace Knurl
             return null;
         }
 
-        /// <summary>The triangles of a surface; 0 where it is not in the scene.</summary>
+        /// <summary>The triangles of a surface; 0 if it is not in the scene.</summary>
         internal int CountTriangles(KnurlSurface surface)
         {
             int i = IndexOf(surface);
@@ -131,7 +132,7 @@ namespace Knurl
                 ? 0 : (int)info.triangle_count;
         }
 
-        /// <summary>What the device cannot do of a surface, a sentence each.</summary>
+        /// <summary>Adds a warning for each setting of a surface that the device cannot render.</summary>
         internal void Explain(KnurlSurface surface, List<string> warnings)
         {
             const int size = 4096;
@@ -188,7 +189,7 @@ namespace Knurl
             }
         }
 
-        /// <summary>Exact: Unity's == also holds for values that differ a little.</summary>
+        /// <summary>Exact: Unity's == ignores small differences.</summary>
         static bool IsSame(Matrix4x4* a, Matrix4x4* b)
         {
             var x = (ulong*)a;

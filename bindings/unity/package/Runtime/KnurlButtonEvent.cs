@@ -4,7 +4,8 @@ using UnityEngine.Events;
 
 namespace Knurl
 {
-    /// <summary>Tells which button (0: the first), and whether it was pressed. Invoked on the main thread.</summary>
+    /// <summary>Arguments: the button (0: the first), and true if it was pressed, false if released. Invoked on the
+    /// main thread.</summary>
     [Serializable]
     public sealed class KnurlButtonEvent : UnityEvent<int, bool> { }
 }

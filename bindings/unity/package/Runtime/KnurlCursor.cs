@@ -3,8 +3,8 @@ using UnityEngine;
 
 namespace Knurl
 {
-    /// <summary>Puts its object where a device feels: at the point of the surface that holds the stylus back, or at the
-    /// stylus itself. Give it any mesh to be seen by. Main thread.</summary>
+    /// <summary>Moves its object to a device's contact point on a surface, or to the stylus itself. Give the object a
+    /// mesh to make it visible. Main thread.</summary>
     [AddComponentMenu("Knurl/Knurl Cursor")]
     [DefaultExecutionOrder(1001)] // after the devices
     [DisallowMultipleComponent]
@@ -17,15 +17,15 @@ namespace Knurl
             + "which they hold back.")]
         bool showsHip;
 
-        /// <summary>Whose cursor it is; null, the default: of the first device that runs.</summary>
+        /// <summary>The device that it shows; null, the default: the first running device.</summary>
         public KnurlDevice Device
         {
             get { return device; }
             set { device = value; }
         }
 
-        /// <summary>Whether it shows the stylus (the HIP), which goes into surfaces, and not the proxy, which they hold
-        /// back. Default false.</summary>
+        /// <summary>True: shows the stylus (the HIP), which enters surfaces; false, the default: the proxy, which stays
+        /// on them.</summary>
         public bool ShowsHip
         {
             get { return showsHip; }

@@ -1,5 +1,5 @@
-// Events of a KnurlDevice: what happened since the last frame. Any of their handlers may stop the device, start it
-// anew, or destroy it. SPDX-License-Identifier: MIT
+// Events of a KnurlDevice since the last frame. Any handler may stop the device, restart it, or destroy it.
+// SPDX-License-Identifier: MIT
 using System;
 using UnityEngine;
 using UnityEngine.Events;
@@ -8,10 +8,10 @@ namespace Knurl
 {
     public sealed partial class KnurlDevice
     {
-        [NonSerialized] ulong touchedId;      // as told: in the session's scene, or 0
-        [NonSerialized] KnurlSurface touched; // as told: null also for a file's surface
+        [NonSerialized] ulong touchedId;      // as reported: in the session's scene, or 0
+        [NonSerialized] KnurlSurface touched; // as reported: null also for a file's surface
 
-        /// <summary>A surface was disabled: that it is no longer touched is told at once.</summary>
+        /// <summary>Reports the end of contact with a disabled surface immediately.</summary>
         internal void EndContactWith(KnurlSurface surface)
         {
             if (ReferenceEquals(touched, surface))
@@ -32,7 +32,7 @@ namespace Knurl
                         Touch(e.surface);
                         break;
                     case NativeMethods.KNURL_SESSION_CONTACT_ENDED:
-                        EndContact(); // nothing where its surface was disabled: that was told
+                        EndContact(); // does nothing if its surface was disabled: already reported
                         break;
                     case NativeMethods.KNURL_SESSION_BUTTON:
                         TellButton(e.code, e.value != 0.0);
@@ -47,7 +47,8 @@ namespace Knurl
             }
         }
 
-        /// <summary>Begins a contact. Handlers get null for a file's surface. They are not called for a surface that was
+        /// <summary>Starts a contact. Handlers get null for a file's surface. They are not called for a surface that
+        /// was
         /// removed meanwhile.</summary>
         unsafe void Touch(ulong id)
         {
@@ -94,7 +95,7 @@ namespace Knurl
             }
         }
 
-        /// <summary>Tells what is touched how many ridges passed since the last frame.</summary>
+        /// <summary>Reports the number of ridges since the last frame to the touched surface.</summary>
         void TellRidges()
         {
             double now = isRunning ? GetState().ridges : 0.0;

@@ -6,31 +6,31 @@ namespace Knurl
 {
     public sealed partial class KnurlDevice
     {
-        // What runs does not survive a loading of scripts, so none of it may be kept by one.
-        [NonSerialized] SessionHandle session; // while it runs; also between runs where a file was loaded
+        // A run does not survive a reload of scripts, so its state must not be serialized.
+        [NonSerialized] SessionHandle session; // while it runs; also between runs if a file was loaded
         [NonSerialized] Following following;   // as long as the session is open
         [NonSerialized] bool isRunning;
         [NonSerialized] bool hasFiles;
         [NonSerialized] bool isPaused; // by the application
-        [NonSerialized] bool isNew; // nothing has started or stopped it since it was enabled
-        [NonSerialized] bool hasFailed; // to start by itself
+        [NonSerialized] bool isNew; // it was not started or stopped since it was enabled
+        [NonSerialized] bool hasFailed; // the last automatic start
         [NonSerialized] float retryAt; // s, unscaled
-        [NonSerialized] Vector3 impulse; // N s: of the run, as of the latest frame
-        [NonSerialized] int runs;        // so far
+        [NonSerialized] Vector3 impulse; // N s: of the run, as of the last frame
+        [NonSerialized] int runs;        // number so far
         [NonSerialized] string deviceName;
-        [NonSerialized] Vector3 latestPosition;       // where the workspace was told to be
+        [NonSerialized] Vector3 latestPosition;       // the workspace's last reported position
         [NonSerialized] Quaternion latestRotation;
         [NonSerialized] float latestScale;
-        [NonSerialized] Vector3 latestForce;          // as told to the run
+        [NonSerialized] Vector3 latestForce;          // as set in the run
         [NonSerialized] float latestGain;
         [NonSerialized] bool latestClutch;
         [NonSerialized] bool latestSound;
-        [NonSerialized] double ridges;                // as told to the surfaces that were touched
-        [NonSerialized] double framesTime, stepsTime; // s: how far the game's frames and physics steps have come
+        [NonSerialized] double ridges;                // already reported to the touched surfaces
+        [NonSerialized] double framesTime, stepsTime; // s: time of the game's frames and physics steps
 
-        /// <summary>Opens the device and starts to feel; nothing where it runs. Needs play mode, and this component
-        /// active and enabled.</summary>
-        /// <returns>Whether it runs. An error that says why not goes to the console.</returns>
+        /// <summary>Opens the device and starts its loop; does nothing if it runs. Needs play mode, and this component
+        /// must be active and enabled.</summary>
+        /// <returns>True if it runs; otherwise the error is logged to the console.</returns>
         public bool StartDevice()
         {
             hasFailed = false;
@@ -78,24 +78,24 @@ namespace Knurl
             }
         }
 
-        /// <summary>Ramps the force down and closes the device. Twice is fine.</summary>
+        /// <summary>Ramps the force down and closes the device. Does nothing if it does not run.</summary>
         public void StopDevice()
         {
             isNew = hasFailed = false;
             if (isRunning)
             {
                 Release();
-                EndContact(); // last: a handler finds a device that is stopped, and may start it
+                EndContact(); // last: handlers find a stopped device, and may start it
             }
         }
 
-        /// <summary>Stops every device and gives back all that is native, for the editor.</summary>
+        /// <summary>Stops every device and frees all native objects, for the editor.</summary>
         internal static void StopAll()
         {
             Registry.StopAll();
         }
 
-        /// <summary>Stops it and gives back all that is native: what files brought, too.</summary>
+        /// <summary>Stops it and frees all native objects, including surfaces from files.</summary>
         internal void StopAndFree()
         {
             StopDevice();
@@ -139,7 +139,7 @@ namespace Knurl
             }
         }
 
-        /// <summary>Opens the device first: where there is none, no mesh need be read.</summary>
+        /// <summary>Opens the device first: if that fails, no mesh needs to be read.</summary>
         unsafe void Open()
         {
             knurl_session_desc desc;
@@ -162,7 +162,7 @@ namespace Knurl
             following.Fill();
         }
 
-        /// <summary>Tells the run what is another since the last frame; all of it at the start.</summary>
+        /// <summary>Passes settings to the run that changed since the last frame; all of them at the start.</summary>
         unsafe void TellSettings(bool all)
         {
             float wanted = Mathf.Clamp01(gain);
@@ -211,7 +211,7 @@ namespace Knurl
             }
         }
 
-        /// <summary>The workspace goes where the object went, in the scale that was set.</summary>
+        /// <summary>Moves the workspace with the object, and sets its scale.</summary>
         unsafe void MoveWorkspace()
         {
             Vector3 position = transform.position;
@@ -259,8 +259,8 @@ namespace Knurl
             }
         }
 
-        /// <summary>Closes the session without reporting its last events: that the contact ended is reported by <see
-        /// cref="EndContact"/>.</summary>
+        /// <summary>Closes the session without reporting its last events: <see cref="EndContact"/> reports the end of a
+        /// contact.</summary>
         unsafe void Release()
         {
             knurl_session_event ignored;
@@ -268,7 +268,7 @@ namespace Knurl
             isRunning = false;
             if (ran)
             {
-                PlaySound(); // no longer
+                PlaySound(); // stops it
             }
             if (session != null)
             {
@@ -295,8 +295,8 @@ namespace Knurl
             hasFailed = false;
         }
 
-        /// <summary>It starts in its first frame: all of the scene is there then, and settings that a script gives to a
-        /// component that it has just added count.</summary>
+        /// <summary>It starts in its first frame, when the scene is complete and a script that added the component has
+        /// set its properties.</summary>
         void Update()
         {
             bool isDue = isNew || (hasFailed && retry > 0f && Time.unscaledTime >= retryAt);
@@ -325,7 +325,7 @@ namespace Knurl
                 Pause();
                 NativeMethods.knurl_unity_update(session);
                 TellTime();
-                MoveWorkspace(); // before the end of a clutch: a scale that was set meanwhile is one about the HIP
+                MoveWorkspace(); // before the end of a clutch: a scale set meanwhile zooms about the HIP
                 TellSettings(false);
                 following.Follow(layers);
                 React();
@@ -334,8 +334,8 @@ namespace Knurl
             }
         }
 
-        /// <summary>The body of what is touched gets the opposite of the forces that the hand got since the last
-        /// frame.</summary>
+        /// <summary>Applies the opposite of the hand's forces since the last frame to the touched surface's
+        /// body.</summary>
         unsafe void React()
         {
             knurl_session_state state = GetState();
@@ -354,8 +354,8 @@ namespace Knurl
             stepsTime += Time.fixedDeltaTime / Time.timeScale; // with a time scale of 0 there are no steps
         }
 
-        /// <summary>In real time: a time scale changes how much of the game's a frame or a step is, not when it
-        /// comes.</summary>
+        /// <summary>In real time: a time scale changes the game time of a frame or a step, not the moment when it
+        /// happens.</summary>
         void TellTime()
         {
             framesTime += Time.unscaledDeltaTime;

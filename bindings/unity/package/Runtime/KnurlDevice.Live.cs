@@ -1,4 +1,4 @@
-// What a KnurlDevice's run is doing, and what is asked of it. SPDX-License-Identifier: MIT
+// State and commands of a KnurlDevice's run. SPDX-License-Identifier: MIT
 using System;
 using System.Collections.Generic;
 using UnityEngine;
@@ -7,14 +7,14 @@ namespace Knurl
 {
     public sealed partial class KnurlDevice
     {
-        /// <summary>Whether the haptic thread runs.</summary>
+        /// <summary>True while the haptic thread runs.</summary>
         public bool Running
         {
             get { return isRunning; }
         }
 
-        /// <summary>The haptic interaction point: where the device is, in the latest tick (m, global). Before the first
-        /// tick, and while nothing runs: where this object is.</summary>
+        /// <summary>The haptic interaction point: the device's position in the last tick (m, global). Before the first
+        /// tick, and if the device does not run: this object's position.</summary>
         public unsafe Vector3 HipPosition
         {
             get
@@ -24,8 +24,8 @@ namespace Knurl
             }
         }
 
-        /// <summary>The point of the surface that holds the haptic interaction point (m, global): where a cursor is
-        /// drawn. Without contact the haptic interaction point.</summary>
+        /// <summary>The surface point that holds the haptic interaction point (m, global): the place to draw a cursor.
+        /// Without contact, the haptic interaction point.</summary>
         public unsafe Vector3 ProxyPosition
         {
             get
@@ -35,7 +35,7 @@ namespace Knurl
             }
         }
 
-        /// <summary>The latest force (N, global).</summary>
+        /// <summary>The last force (N, global).</summary>
         public unsafe Vector3 Force
         {
             get
@@ -45,27 +45,27 @@ namespace Knurl
             }
         }
 
-        /// <summary>Whether anything is touched, as of the latest frame: from <see cref="contactStarted"/> to <see
+        /// <summary>True if a surface was touched in the last frame: from <see cref="contactStarted"/> to <see
         /// cref="contactEnded"/>.</summary>
         public bool InContact
         {
             get { return touchedId != 0; }
         }
 
-        /// <summary>What is touched, as of the latest frame; null for nothing, and for a surface of
+        /// <summary>The surface touched in the last frame; null if there is no contact, or for a surface of
         /// <see cref="LoadGltf"/>.</summary>
         public KnurlSurface Touched
         {
             get { return touched; }
         }
 
-        /// <summary>The grating's height under the finger in the latest tick (m).</summary>
+        /// <summary>The grating's height under the finger in the last tick (m).</summary>
         public float Height => (float)GetState().height;
 
-        /// <summary>Ridges a second that the motion asks for (Hz).</summary>
+        /// <summary>Ridges crossed per second at the current velocity (Hz).</summary>
         public float TemporalFrequency => (float)GetState().temporal_frequency;
 
-        /// <summary>How fast the haptic interaction point moves (m/s, global).</summary>
+        /// <summary>Velocity of the haptic interaction point (m/s, global).</summary>
         public unsafe Vector3 Velocity
         {
             get
@@ -75,14 +75,14 @@ namespace Knurl
             }
         }
 
-        /// <summary>How deep the device is in what it touches (m).</summary>
+        /// <summary>Depth of the haptic interaction point below the touched surface (m).</summary>
         public float Depth => (float)GetState().depth;
 
-        /// <summary>The device's buttons that are pressed, a bit each, as of the latest frame.</summary>
+        /// <summary>The pressed buttons, one bit each, as of the last frame.</summary>
         public int Buttons => (int)GetState().buttons;
 
-        /// <summary>How the stylus is turned (global), as of the latest frame, to draw one: contact is a point's. The
-        /// identity with a device that does not measure it.</summary>
+        /// <summary>Rotation of the stylus (global), as of the last frame, for drawing; contact is computed for a
+        /// point. The identity if the device does not measure it.</summary>
         public unsafe Quaternion StylusRotation
         {
             get
@@ -92,7 +92,7 @@ namespace Knurl
             }
         }
 
-        /// <summary>What is wrong with how it is set up: a sentence each. Empty where all is well.</summary>
+        /// <summary>Problems with its settings, one sentence each. Empty if there are no problems.</summary>
         public string[] GetWarnings()
         {
             var warnings = new List<string>();
@@ -111,8 +111,8 @@ namespace Knurl
             return warnings.ToArray();
         }
 
-        /// <summary>The devices that drivers find now, with why those that cannot be opened cannot. Takes a
-        /// while.</summary>
+        /// <summary>Lists the devices that drivers find now, with the reason for those that cannot be opened. Takes
+        /// some milliseconds.</summary>
         public static unsafe KnurlDeviceListing[] ListDevices()
         {
             Library.Demand();
@@ -126,21 +126,21 @@ namespace Knurl
             return listed;
         }
 
-        /// <summary>Ticks since the start.</summary>
+        /// <summary>Number of ticks since the start.</summary>
         public long Ticks => (long)GetState().ticks;
 
-        /// <summary>Ticks that came late, as of the latest frame.</summary>
+        /// <summary>Number of late ticks, as of the last frame.</summary>
         public long Overruns => (long)GetState().overruns;
 
-        /// <summary>What the running device is, for people; "" while nothing runs.</summary>
+        /// <summary>Name of the running device, for display; "" if it does not run.</summary>
         public string DeviceName
         {
             get { return isRunning ? deviceName : ""; }
         }
 
-        /// <summary>Moves the haptic interaction point of the device "mouse"; nothing while another device runs, or
-        /// none. What comes in steps is smoothed: it lags 25 ms behind. A position that is not finite is an error in
-        /// the console.</summary>
+        /// <summary>Moves the haptic interaction point of the device "mouse"; does nothing if another device or no
+        /// device runs. Steps are smoothed, with a delay of 25 ms. A position that is not finite is an error in the
+        /// console.</summary>
         /// <param name="global">m, global.</param>
         public unsafe void MoveHip(Vector3 global)
         {
@@ -153,12 +153,12 @@ namespace Knurl
             }
         }
 
-        /// <summary>Adds a square wave to the force, as a cue, in place of one that plays. Bounded like <see
-        /// cref="AddedForce"/>. What cannot be played is an error in the console.</summary>
-        /// <param name="method">How its periods are made of whole ticks.</param>
+        /// <summary>Adds a square wave to the force, as a cue, replacing the current one. Bounded like <see
+        /// cref="AddedForce"/>. Invalid arguments are errors in the console.</summary>
+        /// <param name="method">How its periods are composed of whole ticks.</param>
         /// <param name="frequency">Hz, 0.1 to half of <see cref="Rate"/>.</param>
         /// <param name="amplitude">N, half peak to peak.</param>
-        /// <param name="duration">s; 0 ends the one that plays.</param>
+        /// <param name="duration">s; 0 stops the current one.</param>
         /// <param name="direction">Global, of any length above 0.</param>
         public unsafe void Vibrate(KnurlVibration method, float frequency, float amplitude, float duration,
             Vector3 direction)
@@ -174,12 +174,11 @@ namespace Knurl
                 duration));
         }
 
-        /// <summary>Adds all surfaces that are tagged in the extras of a .gltf or .glb file, at the scene's origin,
-        /// without any object; they stay as long as this component, and are told as null by its events. Play mode
-        /// only.</summary>
-        /// <param name="path">A file on the disk, also in a built game (as one in
+        /// <summary>Adds all surfaces tagged in the extras of a .gltf or .glb file at the scene's origin, without
+        /// objects; they exist as long as this component, and its events report them as null. Play mode only.</summary>
+        /// <param name="path">A file on disk, also in a built game (for example in
         /// Application.streamingAssetsPath).</param>
-        /// <returns>How many there were, or -1 after an error, which goes to the console.</returns>
+        /// <returns>Their number, or -1 after an error, which goes to the console.</returns>
         public unsafe int LoadGltf(string path)
         {
             try
@@ -207,10 +206,10 @@ namespace Knurl
             }
         }
 
-        /// <summary>The latest ticks, oldest first, at most 8192: two numbers each, the grating's height (m) and the
+        /// <summary>The last ticks, oldest first, at most 8192: two numbers each, the grating's height (m) and the
         /// force along the normal (N).</summary>
-        /// <param name="rows">Filled from its beginning: room for half as many ticks as it is long.</param>
-        /// <returns>How many ticks there were; 0 while nothing runs.</returns>
+        /// <param name="rows">Filled from its start; half its length is the maximum number of ticks.</param>
+        /// <returns>The number of ticks; 0 if it does not run.</returns>
         /// <exception cref="ArgumentNullException">rows is null.</exception>
         public unsafe int GetHistory(float[] rows)
         {
@@ -228,15 +227,14 @@ namespace Knurl
             }
         }
 
-        /// <summary>Everything that is counted: ticks, times, limits that took hold, memory. All zeros while nothing
-        /// runs. For people who look for what is wrong; not for every frame.</summary>
+        /// <summary>All counters: ticks, times, limits applied to the force, memory. All zeros if it does not run. For
+        /// debugging, not for every frame.</summary>
         public KnurlStatus GetStatus()
         {
             return isRunning ? KnurlStatus.Of(session) : default(KnurlStatus);
         }
 
-        /// <summary>Where the workspace lies, in device metres to global, but for what a clutch has moved it by. The
-        /// object's scale does not count.</summary>
+        /// <summary>Device metres to global, without the offset of a clutch. The object's scale is ignored.</summary>
         internal Matrix4x4 Workspace
         {
             get { return Matrix4x4.TRS(transform.position, transform.rotation, workspaceScale * Vector3.one); }

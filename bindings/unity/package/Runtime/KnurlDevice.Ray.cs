@@ -5,13 +5,13 @@ namespace Knurl
 {
     public partial class KnurlDevice
     {
-        /// <summary>Finds where a straight line first goes through what this device feels, by its triangles and as it
-        /// stands now, with no part of Unity's physics. A surface that is not double-sided is hit from its front
-        /// only.</summary>
+        /// <summary>Finds the first hit of a line segment on the surfaces of this device. It tests their triangles in
+        /// their current pose and does not use Unity's physics. A surface that is not double-sided is hit from its
+        /// front only.</summary>
         /// <param name="from">Global.</param>
         /// <param name="to">Global.</param>
-        /// <param name="hit">What was found.</param>
-        /// <returns>False if nothing is hit, or if the device does not run.</returns>
+        /// <param name="hit">The first hit.</param>
+        /// <returns>False if nothing is hit or the device does not run.</returns>
         public unsafe bool CastRay(Vector3 from, Vector3 to, out KnurlRayHit hit)
         {
             hit = default(KnurlRayHit);

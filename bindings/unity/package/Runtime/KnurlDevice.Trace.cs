@@ -7,8 +7,8 @@ namespace Knurl
     {
         const int MostTicks = 100000000;
 
-        /// <summary>What a device that does not run would play along a path, as fast as the machine can, on this
-        /// thread. Needs a fake device, play mode, and this component active and enabled.</summary>
+        /// <summary>Renders the forces along a path on this thread, as fast as the machine can, on a device that does
+        /// not run. Needs a fake device, play mode, and this component active and enabled.</summary>
         /// <param name="rows">Time (s, ascending), x, y, z (m, global) of one tick or more, interpolated linearly; the
         /// last position is held.</param>
         /// <param name="ticks">1 to 100,000,000.</param>

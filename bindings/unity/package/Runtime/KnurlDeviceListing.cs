@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 namespace Knurl
 {
-    /// <summary>A device that a driver has found. See <see cref="KnurlDevice.ListDevices"/>.</summary>
+    /// <summary>A device found by a driver, or a kind without a device. See <see
+    /// cref="KnurlDevice.ListDevices"/>.</summary>
     public struct KnurlDeviceListing
     {
         internal unsafe KnurlDeviceListing(knurl_device_listing* from)
@@ -11,13 +12,13 @@ namespace Knurl
             Reason = Utf8.Read(from->reason);
         }
 
-        /// <summary>What <see cref="KnurlDevice.Device"/> opens it with.</summary>
+        /// <summary>The value of <see cref="KnurlDevice.Device"/> that opens it.</summary>
         public string Uri { get; }
 
-        /// <summary>What it is, for people.</summary>
+        /// <summary>Name for display.</summary>
         public string Name { get; }
 
-        /// <summary>Why it cannot be opened; "" where it can.</summary>
+        /// <summary>Why it cannot be opened; "" if it can.</summary>
         public string Reason { get; }
     }
 }

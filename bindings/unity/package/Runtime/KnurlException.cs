@@ -3,8 +3,7 @@ using System;
 
 namespace Knurl
 {
-    /// <summary>What Knurl could not do, in a sentence that names the thing, what was expected and what was
-    /// found.</summary>
+    /// <summary>An error of Knurl. The message names the object, the expected value and the one found.</summary>
     public sealed class KnurlException : Exception
     {
         internal KnurlException(int code, string message) : base(message)
@@ -12,12 +11,11 @@ namespace Knurl
             Code = code;
         }
 
-        /// <summary>The result code of Knurl's C interface (sdk/include/knurl/base.h): negative, as -1 for an argument
-        /// out of its range, -7 for a file that could not be read, -8 for one that does not hold what its format
-        /// demands.</summary>
+        /// <summary>The result code of Knurl's C interface (sdk/include/knurl/base.h): negative, for example -1: an
+        /// argument is out of range; -7: a file could not be read; -8: a file is invalid in its format.</summary>
         public int Code { get; }
 
-        /// <summary>Throws what went wrong in the latest call on this thread, unless its result is KNURL_OK.</summary>
+        /// <summary>Throws the error of the last call on this thread, unless its result is KNURL_OK.</summary>
         internal static unsafe void Check(int result)
         {
             if (result != NativeMethods.KNURL_OK)

@@ -4,8 +4,8 @@ using UnityEngine.Events;
 
 namespace Knurl
 {
-    /// <summary>Tells a fault's number (1 to 31: something went wrong, 32 and above: it is well again) and its
-    /// sentence, with the value and its unit. Invoked on the main thread.</summary>
+    /// <summary>Arguments: the fault's number (1 to 31: a fault, 32 and above: recovery) and its message, with value
+    /// and unit. Invoked on the main thread.</summary>
     [Serializable]
     public sealed class KnurlFaultEvent : UnityEvent<int, string> { }
 }

@@ -4,10 +4,10 @@ using UnityEngine;
 
 namespace Knurl
 {
-    /// <summary>How a surface feels: a grating of fine ridges on a wall of some stiffness. Surfaces may share one; a
-    /// change is felt at the next frame, wherever it is touched. All is per metre of the scene: a workspace that is
-    /// scaled up feels stiffer. What a property is set to is checked where it is felt: a value out of its range is an
-    /// error in the console, and the surface feels as before. Main thread.</summary>
+    /// <summary>How a surface feels: a grating of fine ridges on a wall with a stiffness. Surfaces may share one; a
+    /// change is felt from the next frame on, on all of them. All values are per metre of the scene, so a workspace
+    /// that is scaled up feels stiffer. Values are checked when a device uses them: a value out of range is an error in
+    /// the console, and the surface feels as before. Main thread.</summary>
     [CreateAssetMenu(menuName = "Knurl/Grating", fileName = "Grating")]
     public sealed class KnurlGrating : ScriptableObject
     {
@@ -33,12 +33,12 @@ namespace Knurl
         [SerializeField, Tooltip("How ridges are rendered. Default: as Bandlimited.")]
         GratingMethod method = GratingMethod.Default;
 
-        [NonSerialized] long version; // counts anew when scripts are loaded anew, as Changes does
+        [NonSerialized] long version; // restarts when scripts are reloaded, like Changes
 
-        /// <summary>Changes of all gratings so far, so that one look says that none has changed.</summary>
+        /// <summary>Number of changes of all gratings: if it is unchanged, so are they.</summary>
         internal static long Changes { get; private set; }
 
-        /// <summary>What <see cref="Changes"/> was at this one's latest change; 0: never.</summary>
+        /// <summary>The value of <see cref="Changes"/> at this one's last change; 0: never changed.</summary>
         internal long Version
         {
             get { return version; }
@@ -59,8 +59,8 @@ namespace Knurl
             set { amplitude = value; Changed(); }
         }
 
-        /// <summary>Stiffness of the wall (N/m), above 0. Default 400. What a device can do is said by <see
-        /// cref="KnurlSurface.GetWarnings"/>.</summary>
+        /// <summary>Stiffness of the wall (N/m), above 0. Default 400. <see cref="KnurlSurface.GetWarnings"/> reports
+        /// values that a device cannot render.</summary>
         public float Stiffness
         {
             get { return stiffness; }

@@ -3,15 +3,15 @@ using UnityEngine;
 
 namespace Knurl
 {
-    /// <summary>The mouse as a stylus, for those who have none: moves the device "mouse" over the surface under the
-    /// pointer. The left button presses, the wheel sets how deep. On a curved surface it moves over the plane that touches
-    /// the middle of it. Main thread.</summary>
+    /// <summary>The mouse as a stylus, for people without a device: moves the device "mouse" over the surface under the
+    /// pointer. The left button presses, the wheel sets the depth. On a curved surface it moves in the tangent plane at
+    /// the middle. Main thread.</summary>
     [AddComponentMenu("Knurl/Knurl Mouse")]
     [DisallowMultipleComponent]
     [RequireComponent(typeof(KnurlDevice))]
     public sealed class KnurlMouse : MonoBehaviour
     {
-        const float Step = 0.0001f; // m a notch of the wheel
+        const float Step = 0.0001f; // m per notch of the wheel
 
         [SerializeField, Tooltip("Which camera the pointer looks through. None: the main camera.")]
         Camera eye;
@@ -23,24 +23,25 @@ namespace Knurl
         float depth = 0.0006f;
 
         KnurlDevice device;
-        Plane plane; // over which it moved in the latest frame
+        Plane plane; // in which it moved in the last frame
         bool hasPlane;
 
-        /// <summary>Which camera the pointer looks through; null, the default: the main camera.</summary>
+        /// <summary>The camera of the pointer; null, the default: the main camera.</summary>
         public Camera Eye
         {
             get { return eye; }
             set { eye = value; }
         }
 
-        /// <summary>How high the HIP hovers while the button is up (m). Default 0.004.</summary>
+        /// <summary>Height of the HIP above the surface while the button is up (m). Default 0.004.</summary>
         public float Hover
         {
             get { return hover; }
             set { hover = value; }
         }
 
-        /// <summary>How deep the left button presses (m); the wheel changes it, up to 2 mm. Default 0.0006.</summary>
+        /// <summary>Depth while the left button is down (m); the wheel changes it, up to 2 mm. Default
+        /// 0.0006.</summary>
         public float Depth
         {
             get { return depth; }

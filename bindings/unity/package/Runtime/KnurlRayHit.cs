@@ -3,7 +3,7 @@ using UnityEngine;
 
 namespace Knurl
 {
-    /// <summary>Where a straight line goes through what a device feels. See <see cref="KnurlDevice.CastRay"/>.</summary>
+    /// <summary>The hit of a line segment on a surface. See <see cref="KnurlDevice.CastRay"/>.</summary>
     public struct KnurlRayHit
     {
         /// <summary>Global.</summary>
@@ -12,10 +12,10 @@ namespace Knurl
         /// <summary>Outward, of length 1.</summary>
         public Vector3 Normal;
 
-        /// <summary>m, from the line's beginning.</summary>
+        /// <summary>m, from the segment's start.</summary>
         public float Distance;
 
-        /// <summary>Null for one of <see cref="KnurlDevice.LoadGltf"/>.</summary>
+        /// <summary>Null for a surface of <see cref="KnurlDevice.LoadGltf"/>.</summary>
         public KnurlSurface Surface;
     }
 }

@@ -4,7 +4,8 @@ using UnityEngine.Events;
 
 namespace Knurl
 {
-    /// <summary>Tells a surface how many ridges passed under a device's finger. Invoked on the main thread.</summary>
+    /// <summary>Arguments: the device, and the number of ridges that passed under its finger. Invoked on the main
+    /// thread.</summary>
     [Serializable]
     public sealed class KnurlRidgesEvent : UnityEvent<KnurlDevice, int> { }
 }

@@ -4,9 +4,9 @@ using UnityEngine;
 
 namespace Knurl
 {
-    /// <summary>Plays what the <see cref="KnurlDevice"/> of its object feels, see <see cref="KnurlDevice.Sound"/>, by the
-    /// AudioSource beside it, which says how loud, from where and to which mixer group. All channels get the same, added to
-    /// what the source plays itself.</summary>
+    /// <summary>Plays the sound of its object's <see cref="KnurlDevice"/>, see <see cref="KnurlDevice.Sound"/>, through
+    /// the AudioSource of the same object, which sets volume, position and mixer group. All channels get the same
+    /// samples, added to those that the source plays itself.</summary>
     [AddComponentMenu("Knurl/Knurl Sound")]
     [RequireComponent(typeof(AudioSource))]
     [DisallowMultipleComponent]
@@ -26,7 +26,7 @@ namespace Knurl
             sound = null;
             if (old != null)
             {
-                old.Dispose(); // given back when the audio thread is out of it
+                old.Dispose(); // released once the audio thread has left it
             }
         }
 
@@ -35,7 +35,7 @@ namespace Knurl
             Stop();
         }
 
-        /// <summary>On the audio thread. No memory is allocated.</summary>
+        /// <summary>Runs on the audio thread and allocates no memory.</summary>
         unsafe void OnAudioFilterRead(float[] data, int channels)
         {
             const int most = 256;

@@ -1,68 +1,67 @@
 // SPDX-License-Identifier: MIT
 namespace Knurl
 {
-    /// <summary>Everything that a device's run counts, since its start; all zeros while it does not run. For people who
-    /// look for what is wrong.</summary>
+    /// <summary>All counters of a device's run since its start; all zeros if it does not run. For debugging.</summary>
     public struct KnurlStatus
     {
-        /// <summary>Whether the haptic thread runs.</summary>
+        /// <summary>True while the haptic thread runs.</summary>
         public bool Running;
 
-        /// <summary>Ticks made.</summary>
+        /// <summary>Number of ticks.</summary>
         public long Ticks;
 
-        /// <summary>Ticks that came late, by more than half a period.</summary>
+        /// <summary>Ticks that were late by more than half a period.</summary>
         public long Overruns;
 
-        /// <summary>Times the watchdog zeroed the force, because the haptic thread stalled.</summary>
+        /// <summary>Number of times that the watchdog zeroed the force because the haptic thread stalled.</summary>
         public long Watchdogs;
 
-        /// <summary>Ticks left out because the device was lost or gave no position that can be trusted.</summary>
+        /// <summary>Ticks without a valid position, because the device was lost or its position was rejected.</summary>
         public long Absences;
 
-        /// <summary>Whether such was the latest one.</summary>
+        /// <summary>True if the last tick was one of these.</summary>
         public bool Absent;
 
-        /// <summary>Whether the haptic thread has the system's real-time priority.</summary>
+        /// <summary>True if the haptic thread has the system's real-time priority.</summary>
         public bool Realtime;
 
-        /// <summary>Whether what a tick needs is locked into RAM.</summary>
+        /// <summary>True if the memory that a tick uses is locked into RAM.</summary>
         public bool MemoryLocked;
 
-        /// <summary>How long the computation of a tick took, median (us).</summary>
+        /// <summary>Computation time of a tick, median (us).</summary>
         public double TickUsP50;
 
-        /// <summary>How long the computation of a tick took, 99th percentile (us).</summary>
+        /// <summary>Computation time of a tick, 99th percentile (us).</summary>
         public double TickUsP99;
 
-        /// <summary>How long the computation of a tick took at most (us).</summary>
+        /// <summary>Computation time of a tick, maximum (us).</summary>
         public double TickUsMax;
 
-        /// <summary>How late ticks began, median (us).</summary>
+        /// <summary>Lateness of ticks, median (us).</summary>
         public double JitterUsP50;
 
-        /// <summary>How late ticks began, 99th percentile (us).</summary>
+        /// <summary>Lateness of ticks, 99th percentile (us).</summary>
         public double JitterUsP99;
 
-        /// <summary>How late ticks began at most (us).</summary>
+        /// <summary>Lateness of ticks, maximum (us).</summary>
         public double JitterUsMax;
 
-        /// <summary>The longest force that the device can play (N).</summary>
+        /// <summary>The maximum force of the device (N).</summary>
         public double MaxForce;
 
-        /// <summary>Whether the device is gone.</summary>
+        /// <summary>True if the device is lost.</summary>
         public bool Lost;
 
-        /// <summary>Whether the force was zeroed and nothing has taken the device up again.</summary>
+        /// <summary>True if the force was zeroed and has not resumed.</summary>
         public bool Halted;
 
-        /// <summary>Faults reported, with the news that all is well again.</summary>
+        /// <summary>Reported faults, including recoveries.</summary>
         public long Faults;
 
         /// <summary>Ticks in contact.</summary>
         public long ContactTicks;
 
-        /// <summary>Vibration events started (method S2) or ridges begun (Bandlimited).</summary>
+        /// <summary>Vibration events started (method S2) or ridges started (Bandlimited).</summary>
         public long Events;
 
         /// <summary>Ridges and grooves that the HIP passed, with every method, not rounded.</summary>
@@ -71,39 +70,38 @@ namespace Knurl
         /// <summary>Half cycles of the gratings' square waves that were played.</summary>
         public long HalfCyclesPlayed;
 
-        /// <summary>Ticks whose force was shortened to <see cref="MaxForce"/>.</summary>
+        /// <summary>Ticks whose force was reduced to <see cref="MaxForce"/>.</summary>
         public long ForceLimitTicks;
 
-        /// <summary>Ticks whose motion asked for a frequency above half the rate.</summary>
+        /// <summary>Ticks whose temporal frequency was above half the rate.</summary>
         public long AboveNyquistTicks;
 
-        /// <summary>Ticks whose position or force was not a number.</summary>
+        /// <summary>Ticks whose position or force was not finite.</summary>
         public long NonFiniteTicks;
 
-        /// <summary>Ticks in which a wall that was suddenly there came in as a ramp.</summary>
+        /// <summary>Ticks in which the force of a wall that appeared suddenly was ramped up.</summary>
         public long EntryTicks;
 
-        /// <summary>Ticks whose force was kept from jumping.</summary>
+        /// <summary>Ticks in which the slew limit held the force back.</summary>
         public long SlewTicks;
 
-        /// <summary>Ticks whose force was shortened to what warm motors can hold.</summary>
+        /// <summary>Ticks whose force was reduced because the motors were warm.</summary>
         public long HeatTicks;
 
-        /// <summary>Ticks whose force was shortened because a wall gave out more energy than was put in.</summary>
+        /// <summary>Ticks whose force was reduced because a wall returned more energy than it received.</summary>
         public long PassivityTicks;
 
         /// <summary>Ticks in which two surfaces closed in on the HIP, so that one of them no longer holds it.</summary>
         public long SqueezedTicks;
 
-        /// <summary>Ticks that met the limit of what contact looks at: the scene is too crowded there, or a
-        /// grating's amplitude too great for its mesh.</summary>
+        /// <summary>Ticks that reached the limit of contact search: the scene is too crowded there, or a grating's
+        /// amplitude is too large for its mesh.</summary>
         public long VisitLimitTicks;
 
-        /// <summary>The longest force played (N).</summary>
+        /// <summary>The largest force played (N).</summary>
         public double ForceMax;
 
-        /// <summary>How warm the motors are, by a model: 0 cold to 1, as warm as they may get in the long
-        /// run.</summary>
+        /// <summary>Temperature of the motors, by a model: 0: cold, 1: the limit for continuous use.</summary>
         public double Heat;
 
         /// <summary>Surfaces in the scene.</summary>

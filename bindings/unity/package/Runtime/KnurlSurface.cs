@@ -5,12 +5,12 @@ using UnityEngine;
 
 namespace Knurl
 {
-    /// <summary>Makes the mesh of its MeshFilter felt, with every running <see cref="KnurlDevice"/>. The mesh is read
-    /// when a device starts, or when the surface is enabled while one runs, at rest: skins and blend shapes are not
-    /// followed; after a change of the mesh call <see cref="UpdateMesh"/>. It follows its transform, so that what slides
-    /// under a finger is felt to slide: evenly, by the physics steps of a Rigidbody at or above it that is not
-    /// interpolated, else by the frames. A scale is worked into the mesh, which is read again whenever the scale changes:
-    /// cheap enough for now and then, not for every frame. Main thread.</summary>
+    /// <summary>Makes the mesh of its MeshFilter touchable with every running <see cref="KnurlDevice"/>. The mesh is
+    /// read in its rest pose, without skins and blend shapes, when a device starts or the surface is enabled; call <see
+    /// cref="UpdateMesh"/> after a change. The surface follows its transform, so an object that slides under a finger
+    /// is felt to slide. Its motion is interpolated between the frames, or between physics steps if it belongs to a
+    /// Rigidbody without interpolation. Scale is baked into the mesh, which is read again when the scale changes: cheap
+    /// enough for occasional changes, not for every frame. Main thread.</summary>
     [AddComponentMenu("Knurl/Knurl Surface")]
     [DisallowMultipleComponent]
     [RequireComponent(typeof(MeshFilter))]
@@ -37,21 +37,22 @@ namespace Knurl
         [SerializeField, Tooltip("Only devices feel it that have one of these layers too: a bit each.")]
         int layers = 1;
 
-        /// <summary>A device touches it, see <see cref="KnurlDevice.contactStarted"/>.</summary>
+        /// <summary>Invoked when a device touches it, see <see cref="KnurlDevice.contactStarted"/>.</summary>
         public KnurlTouchEvent touched = new KnurlTouchEvent();
 
-        /// <summary>A device does not touch it any more, see <see cref="KnurlDevice.contactEnded"/>.</summary>
+        /// <summary>Invoked when a device no longer touches it, see <see cref="KnurlDevice.contactEnded"/>.</summary>
         public KnurlTouchEvent released = new KnurlTouchEvent();
 
-        /// <summary>So many ridges passed under the finger since the last frame: for sounds.</summary>
+        /// <summary>Invoked with the number of ridges that passed under the finger since the last frame, for
+        /// sounds.</summary>
         public KnurlRidgesEvent ridgesPassed = new KnurlRidgesEvent();
 
-        // As counted in Made and Felt.
+        // As of the last counts in Made and Felt.
         [NonSerialized] KnurlGrating latestGrating;
         [NonSerialized] Vector3 latestAxis;
         [NonSerialized] bool latestDoubleSided, latestBoxCoordinates;
 
-        /// <summary>How it feels; null: it cannot be felt.</summary>
+        /// <summary>Texture and wall of the surface; null: it cannot be felt.</summary>
         public KnurlGrating Grating
         {
             get { return grating; }
@@ -64,7 +65,7 @@ namespace Knurl
             }
         }
 
-        /// <summary>Whether it can be touched from behind as well. Default false.</summary>
+        /// <summary>True: it can be touched from behind as well. Default false.</summary>
         public bool DoubleSided
         {
             get { return doubleSided; }
@@ -79,17 +80,17 @@ namespace Knurl
             set { axis = value; Made++; Remember(); }
         }
 
-        /// <summary>Whether ridges are laid out by positions in the mesh's own axes, each triangle's projected along the
-        /// axis that its normal is closest to, instead of by UVs: for meshes with bad UVs. <see cref="Axis"/> has to be
-        /// (0, 0, 0). Default false.</summary>
+        /// <summary>True: ridges follow positions in the mesh's own axes instead of UVs: each triangle is projected
+        /// along the axis closest to its normal. For meshes with bad UVs; <see cref="Axis"/> must be (0, 0, 0). Default
+        /// false.</summary>
         public bool BoxCoordinates
         {
             get { return boxCoordinates; }
             set { boxCoordinates = value; Made++; Remember(); }
         }
 
-        /// <summary>Whether the nearest Rigidbody at or above it is pushed by the opposite of what the hand feels. Its
-        /// momentum is the hand's, so light bodies fly: some hundred grams and some drag keep them in hand. Default
+        /// <summary>True: the nearest Rigidbody at or above it gets the opposite of the hand's force. It receives the
+        /// hand's full momentum, so very light bodies fly away: use some hundred grams and some drag. Default
         /// false.</summary>
         public bool Reaction
         {
@@ -97,7 +98,7 @@ namespace Knurl
             set { reaction = value; }
         }
 
-        /// <summary>Only devices feel it that have one of these layers too (a bit each), see <see
+        /// <summary>Only devices that share at least one of these layers (one bit each) feel it, see <see
         /// cref="KnurlDevice.Layers"/>. Default 1.</summary>
         public int Layers
         {
@@ -105,8 +106,7 @@ namespace Knurl
             set { layers = value; }
         }
 
-        /// <summary>How many triangles are felt with the first device that feels it; 0 while no running device
-        /// does.</summary>
+        /// <summary>Number of triangles that are felt; 0 if no running device feels it.</summary>
         public int TriangleCount
         {
             get
@@ -120,8 +120,8 @@ namespace Knurl
             }
         }
 
-        /// <summary>Whether it is what a device touched in the latest frame; of several surfaces in contact, the one
-        /// that is pressed deepest.</summary>
+        /// <summary>True if a device touched it in the last frame. If several surfaces are in contact, only the one
+        /// pressed deepest counts.</summary>
         public bool IsTouched
         {
             get
@@ -135,21 +135,21 @@ namespace Knurl
             }
         }
 
-        /// <summary>Counts what asks for its mesh to be read anew.</summary>
+        /// <summary>Counts changes after which its mesh must be read again.</summary>
         internal int Made { get; private set; }
 
-        /// <summary>Counts gratings that it was given.</summary>
+        /// <summary>Counts changes of the property Grating.</summary>
         internal int Felt { get; private set; }
 
-        /// <summary>Has the mesh read again in the next frame: after it was changed, or its MeshFilter was given another. A
-        /// finger that rests on it stays in contact.</summary>
+        /// <summary>Reads the mesh again in the next frame. Call it after a change of the mesh or of the MeshFilter's
+        /// mesh. A finger that rests on it stays in contact.</summary>
         public void UpdateMesh()
         {
             Made++;
         }
 
-        /// <summary>Why it cannot be felt, or not as asked for: a sentence each. Empty where all is well. In play mode
-        /// this includes what the running devices cannot do. Not for every frame.</summary>
+        /// <summary>Why it cannot be felt or differs from its settings: one sentence each. Empty if there are no
+        /// problems. In play mode this includes the limits of the running devices. Not for every frame.</summary>
         public string[] GetWarnings()
         {
             var warnings = new List<string>();
@@ -185,8 +185,7 @@ namespace Knurl
             return warnings.ToArray();
         }
 
-        /// <summary>The mesh that is felt: null where its sentence says that there is none that can be; or null where
-        /// it can.</summary>
+        /// <summary>Finds the mesh that is felt, or null. Returns why it cannot be felt, or null if it can.</summary>
         internal string FindMesh(out Mesh mesh)
         {
             var filter = GetComponent<MeshFilter>();
@@ -241,8 +240,8 @@ namespace Knurl
             latestBoxCoordinates = boxCoordinates;
         }
 
-        /// <summary>An animation writes fields behind the properties' back, each frame: only what is another counts, for
-        /// the mesh is read anew for it.</summary>
+        /// <summary>An animation writes the fields directly, in each frame: compare them, because a change reads the
+        /// mesh again.</summary>
         void OnDidApplyAnimationProperties()
         {
             bool isMadeAnew = latestDoubleSided != doubleSided || !Axes.IsSame(latestAxis, axis)

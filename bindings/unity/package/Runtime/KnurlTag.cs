@@ -3,7 +3,7 @@ using UnityEngine;
 
 namespace Knurl
 {
-    /// <summary>One surface of a glTF file that is tagged as a grating: how it feels, and which one it is. See <see
+    /// <summary>A surface of a glTF file that is tagged as a grating: its name and its values. See <see
     /// cref="KnurlTags.Read"/>.</summary>
     public sealed class KnurlTag
     {
@@ -23,7 +23,7 @@ namespace Knurl
             BoxCoordinates = Utf8.Read(info->coordinates) == "box";
         }
 
-        /// <summary>The surface's name: its node's, else its mesh's.</summary>
+        /// <summary>The surface's name: its node's, or its mesh's if the node has no name.</summary>
         public string Name { get; }
 
         /// <summary>See <see cref="KnurlGrating.SpatialFrequency"/> (1/m).</summary>
@@ -44,21 +44,21 @@ namespace Knurl
         /// <summary>See <see cref="KnurlGrating.Orientation"/> (rad).</summary>
         public float Orientation { get; }
 
-        /// <summary>How ridges are rendered, as it is felt: never <see cref="GratingMethod.Default"/>.</summary>
+        /// <summary>How ridges are rendered: never <see cref="GratingMethod.Default"/>.</summary>
         public GratingMethod Method { get; }
 
-        /// <summary>Whether the surface can be touched from behind as well.</summary>
+        /// <summary>True: the surface can be touched from behind as well.</summary>
         public bool DoubleSided { get; }
 
-        /// <summary>The grating's x where the tag has an axis: of length 1, in the axes of the object that shows the
-        /// surface, after its scale. Zero where it has none.</summary>
+        /// <summary>The grating's x if the tag has an axis: of length 1, in the axes of the object that shows the
+        /// surface, after its scale. Otherwise zero.</summary>
         public Vector3 Axis { get; }
 
-        /// <summary>Whether ridges are laid out by positions, because the tag says so or because the mesh has neither
-        /// UVs nor tangents.</summary>
+        /// <summary>True: ridges follow positions, by the tag or because the mesh has neither UVs nor
+        /// tangents.</summary>
         public bool BoxCoordinates { get; }
 
-        /// <summary>Gives a grating these values, all of them.</summary>
+        /// <summary>Copies all values to a grating.</summary>
         public void CopyTo(KnurlGrating grating)
         {
             grating.SpatialFrequency = SpatialFrequency;

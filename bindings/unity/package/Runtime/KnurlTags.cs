@@ -3,16 +3,15 @@ using System.Collections.Generic;
 
 namespace Knurl
 {
-    /// <summary>What is tagged as a grating in glTF files, for importers.</summary>
+    /// <summary>Reads tags of gratings in glTF files, for importers.</summary>
     public static class KnurlTags
     {
         /// <summary>Reads a .gltf or .glb file on the disk with Knurl's own loader, in edit mode too. Main
         /// thread.</summary>
-        /// <param name="path">The file; a relative path counts from the process's working directory.</param>
-        /// <returns>Its tagged surfaces, one a node and primitive, in the file's order; none where nothing is
-        /// tagged.</returns>
-        /// <exception cref="KnurlException">The file cannot be read, or does not hold what it should: the loader's
-        /// sentence, which names file, object and key. Or the native library is missing.</exception>
+        /// <param name="path">The file; a relative path is relative to the process's working directory.</param>
+        /// <returns>Its tagged surfaces, one per node and primitive, in the file's order; empty without tags.</returns>
+        /// <exception cref="KnurlException">The file cannot be read or is invalid; the message names file, object and
+        /// key. Or the native library is missing.</exception>
         public static unsafe IReadOnlyList<KnurlTag> Read(string path)
         {
             Library.Demand();

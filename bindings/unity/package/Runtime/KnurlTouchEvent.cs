@@ -4,7 +4,8 @@ using UnityEngine.Events;
 
 namespace Knurl
 {
-    /// <summary>Tells a surface which device touches it, or does not any more. Invoked on the main thread.</summary>
+    /// <summary>Argument: the device that touches the surface, or no longer touches it. Invoked on the main
+    /// thread.</summary>
     [Serializable]
     public sealed class KnurlTouchEvent : UnityEvent<KnurlDevice> { }
 }

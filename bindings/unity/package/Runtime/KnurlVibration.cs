@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 namespace Knurl
 {
-    /// <summary>How the periods of a vibration are made of whole ticks. See <see cref="KnurlDevice.Vibrate"/>.</summary>
+    /// <summary>How the periods of a vibration are composed of whole ticks. See <see
+    /// cref="KnurlDevice.Vibrate"/>.</summary>
     public enum KnurlVibration
     {
         /// <summary>A sampled square wave: its mean need not be zero.</summary>

@@ -1,4 +1,4 @@
-// Whether the native library is there, and the one that this package belongs to. SPDX-License-Identifier: MIT
+// Checks that the native library is present and matches this package. SPDX-License-Identifier: MIT
 using System;
 
 namespace Knurl
@@ -11,9 +11,8 @@ namespace Knurl
         static bool isChecked;
         static string wrong;
 
-        /// <summary>Null where the library can be called, else a sentence that says why not and what helps: then
-        /// nothing else may be called. It looks once; a failure is looked at again after <see
-        /// cref="ForgetFailure"/>.</summary>
+        /// <summary>Null if the library can be called, otherwise the reason and a remedy: then nothing else may be
+        /// called. The result is cached; a failure is checked again after <see cref="ForgetFailure"/>.</summary>
         internal static string Check()
         {
             if (!isChecked)
@@ -24,7 +23,7 @@ namespace Knurl
             return wrong;
         }
 
-        /// <summary>Throws the sentence of <see cref="Check"/> where there is one.</summary>
+        /// <summary>Throws the message of <see cref="Check"/>, if there is one.</summary>
         internal static void Demand()
         {
             if (Check() != null)
@@ -33,7 +32,8 @@ namespace Knurl
             }
         }
 
-        /// <summary>Lets the next <see cref="Check"/> look again: the library may have been installed since.</summary>
+        /// <summary>Makes the next <see cref="Check"/> try again, because the library may have been installed
+        /// since.</summary>
         internal static void ForgetFailure()
         {
             isChecked = isChecked && wrong == null;
@@ -88,7 +88,7 @@ namespace Knurl
             }
         }
 
-        /// <summary>Both sides were made from the same headers; what is left is that their compilers lay a struct out
+        /// <summary>Both sides were made from the same headers, but their compilers may lay out a struct
         /// differently.</summary>
         static string FindWrongSize()
         {

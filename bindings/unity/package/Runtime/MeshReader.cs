@@ -1,4 +1,4 @@
-// Reads meshes as Knurl wants them. SPDX-License-Identifier: MIT
+// Converts meshes for Knurl. SPDX-License-Identifier: MIT
 using System;
 using System.Collections.Generic;
 using UnityEngine;
@@ -9,14 +9,14 @@ namespace Knurl
     internal sealed class MeshData
     {
         internal float[] Positions; // x, y, z a vertex
-        internal float[] Tangents;  // x, y, z, w a vertex, or null: only where there are no UVs
-        internal float[] Uvs;       // u, v a vertex, or null
-        internal uint[] Indices;    // three a triangle, counter-clockwise from outside
+        internal float[] Tangents;  // x, y, z, w per vertex, or null: only if there are no UVs
+        internal float[] Uvs;       // u, v per vertex, or null
+        internal uint[] Indices;    // three per triangle, counter-clockwise from outside
     }
 
     internal static unsafe class MeshReader
     {
-        /// <summary>Why nothing of a mesh can be felt, or null.</summary>
+        /// <summary>Why a mesh cannot be felt at all, or null.</summary>
         internal static string Refusal(Mesh mesh)
         {
             if (!mesh.isReadable)
@@ -29,7 +29,7 @@ namespace Knurl
                     + Others(mesh, ": expected the topology Triangles, found ") + ".";
         }
 
-        /// <summary>What of a readable mesh is not felt, or null.</summary>
+        /// <summary>A warning about parts of a readable mesh that are not felt, or null.</summary>
         internal static string Omission(Mesh mesh)
         {
             string others = Others(mesh, "");
@@ -37,8 +37,8 @@ namespace Knurl
                 : "Of its mesh '" + mesh.name + "' only triangles are felt, not " + others + ".";
         }
 
-        /// <summary>All triangles of a mesh for which <see cref="Refusal"/> is null. rest: worked into it, 3 by
-        /// 3, row-major, scene axes.</summary>
+        /// <summary>All triangles of a mesh for which <see cref="Refusal"/> is null. rest: baked into it, 3 by 3,
+        /// row-major, scene axes.</summary>
         internal static MeshData Read(Mesh mesh, double* rest)
         {
             var data = new MeshData();
@@ -53,14 +53,15 @@ namespace Knurl
             return data;
         }
 
-        /// <summary>Whether UVs say where u runs. They are asked first: tangents are made of them, and an importer of
-        /// glTF files may have turned tangents into Unity's axes another way than positions (glTFast does).</summary>
+        /// <summary>True if the UVs define a direction of u. They have priority over tangents, which are derived from
+        /// them, and which an importer of glTF files may convert to Unity's axes differently from positions (glTFast
+        /// does).</summary>
         static bool HaveArea(float[] uvs, uint[] indices)
         {
             for (int i = 0; uvs != null && i + 2 < indices.Length; i += 3)
             {
                 long a = 2L * indices[i], b = 2L * indices[i + 1], c = 2L * indices[i + 2];
-                bool areThere = Math.Max(a, Math.Max(b, c)) < uvs.Length; // else it is refused, with a sentence
+                bool areThere = Math.Max(a, Math.Max(b, c)) < uvs.Length; // otherwise it is refused, with a message
                 if (areThere && ((double)uvs[b] - uvs[a]) * ((double)uvs[c + 1] - uvs[a + 1])
                     != ((double)uvs[c] - uvs[a]) * ((double)uvs[b + 1] - uvs[a + 1]))
                 {
@@ -95,7 +96,7 @@ namespace Knurl
             return to;
         }
 
-        /// <summary>glTF's v runs down the image, Unity's up.</summary>
+        /// <summary>glTF's v points down the image, Unity's up.</summary>
         static float[] ReadUvs(Mesh mesh)
         {
             var from = new List<Vector2>();
@@ -109,8 +110,8 @@ namespace Knurl
             return to;
         }
 
-        /// <summary>Unity's front faces are clockwise, in left-handed axes: mirrored, they face in, unless a mirror is
-        /// worked in as well.</summary>
+        /// <summary>Unity's front faces are clockwise, in left-handed axes: mirrored, they face inwards, unless a
+        /// mirror is baked in as well.</summary>
         static uint[] ReadIndices(Mesh mesh, bool isMirrored)
         {
             var to = new uint[3 * CountTriangles(mesh)];
@@ -148,7 +149,7 @@ namespace Knurl
             return count;
         }
 
-        /// <summary>The submeshes of other topologies, after a beginning; "" where there are none.</summary>
+        /// <summary>Text about submeshes of other topologies, after a given start; "" if there are none.</summary>
         static string Others(Mesh mesh, string beginning)
         {
             string text = "";

@@ -6,11 +6,11 @@ using UnityEngine.InputSystem;
 
 namespace Knurl
 {
-    /// <summary>The mouse, by whichever input system the project has.</summary>
+    /// <summary>The mouse, with either input system.</summary>
     internal static class Pointer
     {
 #if KNURL_INPUT_SYSTEM && ENABLE_INPUT_SYSTEM && !ENABLE_LEGACY_INPUT_MANAGER
-        /// <summary>Pixels from the window's lower left.</summary>
+        /// <summary>Pixels from the window's lower left corner.</summary>
         internal static Vector3 Position
         {
             get { return Mouse.current == null ? Vector2.zero : Mouse.current.position.ReadValue(); }
@@ -21,13 +21,13 @@ namespace Knurl
             get { return Mouse.current != null && Mouse.current.leftButton.isPressed; }
         }
 
-        /// <summary>Of the wheel since the last frame, up or down.</summary>
+        /// <summary>Notches of the wheel since the last frame, up or down.</summary>
         internal static float Notches
         {
             get { return Mouse.current == null ? 0f : Mathf.Clamp(Mouse.current.scroll.ReadValue().y, -1f, 1f); }
         }
 #else
-        /// <summary>Pixels from the window's lower left.</summary>
+        /// <summary>Pixels from the window's lower left corner.</summary>
         internal static Vector3 Position
         {
             get { return Input.mousePosition; }
@@ -38,7 +38,7 @@ namespace Knurl
             get { return Input.GetMouseButton(0); }
         }
 
-        /// <summary>Of the wheel since the last frame, up or down.</summary>
+        /// <summary>Notches of the wheel since the last frame, up or down.</summary>
         internal static float Notches
         {
             get { return Mathf.Clamp(Input.mouseScrollDelta.y, -1f, 1f); }

@@ -4,14 +4,14 @@ using UnityEngine;
 
 namespace Knurl
 {
-    /// <summary>Main thread. Statics outlive play mode where domains are not loaded anew: they are cleared before each
-    /// one.</summary>
+    /// <summary>Main thread. Without a domain reload, statics outlive play mode: they are cleared before it
+    /// starts.</summary>
     internal static class Registry
     {
-        /// <summary>Those that are enabled, in the order of enabling.</summary>
+        /// <summary>The enabled surfaces, in the order of enabling.</summary>
         internal static readonly List<KnurlSurface> Surfaces = new List<KnurlSurface>();
 
-        /// <summary>Those that hold a session: they run, or have loaded a file.</summary>
+        /// <summary>The devices with a session: they run, or have loaded a file.</summary>
         internal static readonly List<KnurlDevice> Devices = new List<KnurlDevice>();
 
         static bool isHooked;
@@ -25,8 +25,8 @@ namespace Knurl
             }
         }
 
-        /// <summary>Contacts with the surface end at once: in the next frame it may be destroyed. Handlers are called
-        /// last, because they may add or remove devices and surfaces.</summary>
+        /// <summary>Ends contacts with the surface immediately, because it may be destroyed in the next frame. Calls
+        /// handlers last, because they may add or remove devices and surfaces.</summary>
         internal static void Remove(KnurlSurface surface)
         {
             Surfaces.Remove(surface);
@@ -43,8 +43,8 @@ namespace Knurl
             }
         }
 
-        /// <summary>Stops all devices and gives all that is native back: when the game ends; in the editor also when
-        /// play mode is left and before scripts are loaded anew.</summary>
+        /// <summary>Stops all devices and frees all native objects: when the game ends; in the editor also at the end
+        /// of play mode and before scripts are reloaded.</summary>
         internal static void StopAll()
         {
             for (int i = Devices.Count - 1; i >= 0; i--)

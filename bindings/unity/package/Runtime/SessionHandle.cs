@@ -4,13 +4,13 @@ using Microsoft.Win32.SafeHandles;
 
 namespace Knurl
 {
-    /// <summary>A device, its scene and its loop. Whatever happens to its owner, it is closed at the latest when it is
-    /// collected, so that no haptic thread outlives the game.</summary>
+    /// <summary>A device, its scene and its loop. The finalizer closes it if its owner did not, so that no haptic
+    /// thread outlives the game.</summary>
     internal sealed class SessionHandle : SafeHandleZeroOrMinusOneIsInvalid
     {
         SessionHandle() : base(true) { }
 
-        /// <summary>A session with an empty scene. Errors: KNURL_ERROR_MEMORY.</summary>
+        /// <summary>Creates a session with an empty scene. Errors: KNURL_ERROR_MEMORY.</summary>
         internal static unsafe SessionHandle Create()
         {
             var made = new SessionHandle();

@@ -19,7 +19,7 @@ namespace Knurl
             return made;
         }
 
-        /// <summary>False where it was disposed of. [audio thread]</summary>
+        /// <summary>False if it was disposed. [audio thread]</summary>
         internal bool Fill(float* samples, int count)
         {
             bool isHeld = false;

@@ -1,12 +1,12 @@
-// Where a grating's ridges run on a mesh, to be drawn in the editor. SPDX-License-Identifier: MIT
+// Lines of a grating's ridges on a mesh, for drawing in the editor. SPDX-License-Identifier: MIT
 using System;
 using UnityEngine;
 
 namespace Knurl
 {
-    /// <summary>Ridges of a mesh's triangles as line segments, by the rules that Knurl lays surface coordinates by:
-    /// with an axis metres along it from the object's origin, else UVs scaled to metres by their mean, else metres
-    /// along the tangents (which say a direction only: on a curved mesh such lines do not meet). A pure function of its
+    /// <summary>Ridges on a mesh's triangles as line segments, by Knurl's rules for surface coordinates: with an axis,
+    /// metres along it from the object's origin; otherwise UVs scaled to metres by their mean; otherwise metres along
+    /// the tangents (which define only a direction: on a curved mesh such lines do not meet). A pure function of its
     /// fields. Any thread.</summary>
     internal sealed class Stripes
     {
@@ -18,29 +18,27 @@ namespace Knurl
         internal Vector2[] Uvs { get; set; }
         internal int[] Triangles { get; set; }
 
-        /// <summary>Of the object: its localToWorldMatrix.</summary>
+        /// <summary>The object's localToWorldMatrix.</summary>
         internal Matrix4x4 ToWorld { get; set; }
 
-        /// <summary>As KnurlSurface.Axis; then as of its grating, in 1/m and rad.</summary>
+        /// <summary>The same as KnurlSurface.Axis, then the values of its grating, in 1/m and rad.</summary>
         internal Vector3 Axis { get; set; }
         internal Vector2 SpatialFrequency { get; set; }
         internal float Orientation { get; set; }
 
-        // Of the triangle that is looked at.
+        // Of the current triangle.
         readonly Vector3[] corners = new Vector3[3];
         readonly double[,] phases = new double[2, 3]; // ridges along x and along y, at each corner
 
-        double uScale, vScale; // m per unit of u and v, in the mean; 0: there are no UVs with an area
-        int turned;            // -1: a mirror in the matrix has turned the triangles over
+        double uScale, vScale; // mean m per unit of u and v; 0: no UVs with an area
+        int turned;            // -1: a mirror in the matrix flips the triangles
         int step, written, counted;
         Vector3[] segments;
 
         /// <summary>Fills in segments: two points each, in world axes.</summary>
-        /// <param name="into">Room for half as many segments as it is long; 2 at least.</param>
-        /// <param name="every">Which ridges were drawn: 1: all; n: each n-th, because all would have been too
-        /// many.</param>
-        /// <returns>How many segments there are; 0 where the grating is smooth, or nothing says where it
-        /// runs.</returns>
+        /// <param name="into">Room for half its length of segments; at least 2 points.</param>
+        /// <param name="every">1: all ridges were drawn; n: each n-th, because there were too many.</param>
+        /// <returns>The number of segments; 0 if the grating is smooth or its direction is undefined.</returns>
         internal int Draw(Vector3[] into, out int every)
         {
             int room = Math.Max(1, into.Length / 2);
@@ -56,7 +54,7 @@ namespace Knurl
             return Walk(into);
         }
 
-        /// <summary>Counts all segments at the present step, and writes those that there is room for.</summary>
+        /// <summary>Counts all segments at the present step, and writes as many as fit.</summary>
         int Walk(Vector3[] into)
         {
             segments = into;
@@ -90,7 +88,8 @@ namespace Knurl
             }
         }
 
-        /// <summary>Where a phase takes a value on two of the edges; at a corner only, there is no line.</summary>
+        /// <summary>Draws a line between the points on two edges with a given phase; a single corner makes no
+        /// line.</summary>
         void Cut(int direction, double value)
         {
             int found = 0;
@@ -107,7 +106,7 @@ namespace Knurl
             written += found == 2 ? 2 : 0;
         }
 
-        /// <summary>False where nothing says how the grating runs on this triangle.</summary>
+        /// <summary>False if the grating's direction on this triangle is undefined.</summary>
         bool FindPhases(int first)
         {
             Vector3 x, normal;
@@ -133,7 +132,7 @@ namespace Knurl
                 {
                     Vector2 uv = Uvs[Triangles[first + i]];
                     along = uv.x * uScale;
-                    across = (uv.y - 1.0) * vScale * facing; // as glTF's v, which runs down from the image's top
+                    across = (uv.y - 1.0) * vScale * facing; // as glTF's v, which points down from the image's top
                 }
                 phases[0, i] = SpatialFrequency.x * (cos * along + sin * across);
                 phases[1, i] = SpatialFrequency.y * (cos * across - sin * along);
@@ -154,7 +153,7 @@ namespace Knurl
             return attribute != null && attribute.Length > 0 && attribute.Length == Vertices.Length;
         }
 
-        /// <summary>How u and v change along the edges, and the determinant of that.</summary>
+        /// <summary>The changes of u and v along the edges, and their determinant.</summary>
         double Determinant(int first, out Vector2 edge1, out Vector2 edge2)
         {
             edge1 = Uvs[Triangles[first + 1]] - Uvs[Triangles[first]];
@@ -162,14 +161,14 @@ namespace Knurl
             return (double)edge1.x * edge2.y - (double)edge2.x * edge1.y;
         }
 
-        /// <summary>1 where v grows along y, -1 where it grows against it, 0 where the UVs have no area.</summary>
+        /// <summary>1 if v increases along y, -1 if it decreases, 0 if the UVs have no area.</summary>
         double Facing(int first)
         {
             Vector2 edge1, edge2;
             return -turned * Math.Sign(Determinant(first, out edge1, out edge2));
         }
 
-        /// <summary>Area-weighted means of |dP/du| and |dP/dv|: 0 where there are no UVs with an area.</summary>
+        /// <summary>Area-weighted means of |dP/du| and |dP/dv|: 0 if there are no UVs with an area.</summary>
         void MeasureUvs()
         {
             double area = 0.0, u = 0.0, v = 0.0;

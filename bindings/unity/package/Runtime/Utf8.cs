@@ -6,8 +6,8 @@ namespace Knurl
 {
     internal static unsafe class Utf8
     {
-        /// <summary>UTF-8 with a zero at its end, to be pinned for a call; null counts as "". A zero within would cut
-        /// the text off without a word, so it is an error that names <paramref name="what"/>.</summary>
+        /// <summary>UTF-8 with a zero at its end, to be pinned for a call; null counts as "". A zero within would
+        /// silently cut the text, so it is an error that names <paramref name="what"/>.</summary>
         internal static byte[] Bytes(string text, string what)
         {
             text = text ?? "";
@@ -21,7 +21,7 @@ namespace Knurl
             return bytes;
         }
 
-        /// <summary>What C wrote, up to its zero; "" for null.</summary>
+        /// <summary>A C string; "" for null.</summary>
         internal static string Read(byte* text)
         {
             int length = 0;

@@ -3,8 +3,8 @@ using UnityEngine;
 
 namespace Knurl.Samples
 {
-    /// <summary>Three gratings side by side, felt with a device, or with the mouse where there is none. Put it on an
-    /// empty object of a new scene and press play: everything else is made here.</summary>
+    /// <summary>Three gratings side by side, felt with a device, or with the mouse if there is no device. Put it on an
+    /// empty object of a new scene and press play: it creates everything else.</summary>
     public sealed class KnurlDemo : MonoBehaviour
     {
         [SerializeField, Tooltip("mouse, touch, falcon, rawhid, fake; where it does not start, the mouse takes over")]
@@ -32,7 +32,7 @@ namespace Knurl.Samples
             haptic = MakeDevice();
             MakeBall("HIP", new Color(1f, 0.62f, 0.2f), Ball, true);
             MakeBall("Proxy", new Color(0.2f, 0.9f, 1f), 1.2f * Ball, false);
-            if (!haptic.StartDevice() && device != "mouse") // it said why
+            if (!haptic.StartDevice() && device != "mouse") // the error was logged
             {
                 haptic.Device = "mouse";
                 haptic.StartDevice();
@@ -44,7 +44,7 @@ namespace Knurl.Samples
             var holder = new GameObject("Haptic Device");
             holder.transform.SetParent(transform, false);
             holder.transform.localPosition = WorkspaceCentre;
-            holder.SetActive(false); // so that it does not start before it is told which device it is
+            holder.SetActive(false); // so that it does not start before its device is set
             var made = holder.AddComponent<KnurlDevice>();
             made.Device = device;
             made.Stroke = stroke;
@@ -63,7 +63,7 @@ namespace Knurl.Samples
             {
                 found = new GameObject("Camera").AddComponent<Camera>();
             }
-            found.nearClipPlane = 0.01f; // all of this is the size of a hand
+            found.nearClipPlane = 0.01f; // the scene is as small as a hand
             found.transform.position = transform.TransformPoint(Eye);
             found.transform.rotation = transform.rotation * Quaternion.LookRotation(-Eye, Vector3.up);
         }

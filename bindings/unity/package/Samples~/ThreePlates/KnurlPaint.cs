@@ -4,7 +4,7 @@ using UnityEngine.Rendering;
 
 namespace Knurl.Samples
 {
-    /// <summary>Colours its object in whichever render pipeline the project has. A quad with a <see cref="KnurlSurface"/>
+    /// <summary>Colours its object in any render pipeline. A quad with a <see cref="KnurlSurface"/>
     /// also gets a picture of its ridges, light where they are high.</summary>
     [RequireComponent(typeof(Renderer))]
     public sealed class KnurlPaint : MonoBehaviour
@@ -18,7 +18,7 @@ namespace Knurl.Samples
         Material material;
         Texture2D ridges;
 
-        /// <summary>Of the object; of a plate's ridges. Set it before the component starts.</summary>
+        /// <summary>Colour of the object, or of a plate's ridges. Set it before the component starts.</summary>
         public Color Color
         {
             get { return color; }
@@ -42,7 +42,7 @@ namespace Knurl.Samples
 
         void OnDestroy()
         {
-            Destroy(ridges); // not the material's texture, which may be an asset of the project
+            Destroy(ridges); // not the material's texture, which may be a project asset
             Destroy(material);
         }
 

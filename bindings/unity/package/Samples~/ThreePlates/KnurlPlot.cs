@@ -3,8 +3,8 @@ using UnityEngine;
 
 namespace Knurl.Samples
 {
-    /// <summary>The latest ticks, as the haptic thread played them: above the height that the grating asks for, below
-    /// the force that is felt. The newest is at the right.</summary>
+    /// <summary>The last ticks, as the haptic thread played them: the grating's height above, the force below. The
+    /// newest is at the right.</summary>
     internal sealed class KnurlPlot
     {
         internal const int Width = 400; // pixels, and ticks
@@ -18,7 +18,7 @@ namespace Knurl.Samples
         readonly Texture2D texture = new Texture2D(Width, Height, TextureFormat.RGBA32, false);
         readonly Color32[] pixels = new Color32[Width * Height];
         readonly float[] rows = new float[2 * Width];
-        float heightEnd = 0.0003f; // m: the scales' ends, until more is needed
+        float heightEnd = 0.0003f; // m: end of the scale; grows if needed
         float forceEnd = 0.5f; // N
 
         internal void Draw(KnurlDevice device)
@@ -39,7 +39,7 @@ namespace Knurl.Samples
             texture.Apply();
         }
 
-        /// <summary>Held from tick to tick, as a device plays it: steps and not slopes.</summary>
+        /// <summary>Draws steps, not slopes, because a device holds each value until the next tick.</summary>
         void Trace(int ticks, int column, int bottom, float low, float high, Color32 ink)
         {
             int last = -1;

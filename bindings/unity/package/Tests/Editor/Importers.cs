@@ -7,9 +7,9 @@ using UnityEngine;
 
 namespace Knurl.Tests
 {
-    /// <summary>What the importers of glTF files leave of names, by their published sources (UnityGLTF 2.14, glTFast
-    /// 6.14), for files of the tests' own: objects, meshes and materials without any content. Both make the sole root of
-    /// a file the asset's main object, and Unity names that after the file.</summary>
+    /// <summary>Imitates the names that glTF importers produce, from their published sources (UnityGLTF 2.14, glTFast
+    /// 6.14), for the tests' files: objects, meshes and materials without content. Both make the single root of a file
+    /// the asset's main object, which Unity names after the file.</summary>
     internal sealed class Importers
     {
         [Serializable]
@@ -55,7 +55,8 @@ namespace Knurl.Tests
             file = JsonUtility.FromJson<Gltf>(File.ReadAllText(path));
         }
 
-        /// <summary>An instance of the asset that an importer, "UnityGLTF" or "glTFast", makes of a .gltf file.</summary>
+        /// <summary>An instance of the asset that an importer, "UnityGLTF" or "glTFast", makes of a .gltf
+        /// file.</summary>
         internal static GameObject Import(string importer, string path)
         {
             var import = new Importers(path);
@@ -78,8 +79,8 @@ namespace Knurl.Tests
             owner.AddComponent<MeshRenderer>().sharedMaterials = MaterialsOf(primitives);
         }
 
-        /// <summary>UnityGLTF: an object a node, with all of its mesh; roots that hold nothing but one child are
-        /// removed, and so is the scene's object.</summary>
+        /// <summary>UnityGLTF: one object per node, with its whole mesh; removes the scene's object, and roots that
+        /// have only one child.</summary>
         GameObject KhronosScene()
         {
             var main = new GameObject("Scene");
@@ -112,9 +113,9 @@ namespace Knurl.Tests
             return made;
         }
 
-        /// <summary>glTFast: the first primitive on the node's object, each further one on a child that has the mesh's
-        /// name; a node without a name has its mesh's; siblings of one name get _0, _1 and so on. The sole root is the
-        /// main object, else the scene is.</summary>
+        /// <summary>glTFast: the first primitive on the node's object, each further one on a child with the mesh's
+        /// name; a node without a name gets its mesh's; siblings with equal names get _0, _1 and so on. The main object
+        /// is a single root, otherwise the scene.</summary>
         GameObject FastScene()
         {
             int[] roots = file.scenes[0].nodes;

@@ -7,7 +7,7 @@ using UnityEngine.TestTools;
 
 namespace Knurl.Tests
 {
-    /// <summary>Tags find the objects that the two importers leave, by the menu's own way.</summary>
+    /// <summary>Tags find the objects of both importers through the menu's function.</summary>
     [TestFixture("UnityGLTF")]
     [TestFixture("glTFast")]
     public sealed class ImportersTests
@@ -58,7 +58,7 @@ namespace Knurl.Tests
             KnurlMenu.AddTaggedSurfaces(root, path);
         }
 
-        /// <summary>What is felt: "object mesh frequency" of each, in the hierarchy's order.</summary>
+        /// <summary>The surfaces: "object mesh frequency" of each, in the hierarchy's order.</summary>
         string Felt()
         {
             return string.Join(", ", root.GetComponentsInChildren<KnurlSurface>(true).Select(surface => surface.name + " "
@@ -97,7 +97,7 @@ namespace Knurl.Tests
             Assert.AreEqual("A Plane 1000, B Plane.001 500", Felt());
         }
 
-        /// <summary>The file and its second node are called the same.</summary>
+        /// <summary>The file and its second node have the same name.</summary>
         [Test]
         public void A_root_that_has_anothers_name_does_not_take_its_tag()
         {
@@ -129,7 +129,7 @@ namespace Knurl.Tests
             Assert.AreEqual("model  1000", Felt());
         }
 
-        /// <summary>glTFast makes a mesh of each primitive, UnityGLTF one of all, which is told.</summary>
+        /// <summary>glTFast makes one mesh per primitive, UnityGLTF one mesh of all, which is reported.</summary>
         [Test]
         public void A_primitives_tag_goes_to_what_shows_its_material()
         {
@@ -148,7 +148,7 @@ namespace Knurl.Tests
             TagImporter.Import(path);
             root = Importers.Import(importer, path);
             Object.DestroyImmediate(root.transform.Find("A").gameObject);
-            GltfFiles.Felt("C", root.transform); // so that it is not the one mesh for the one tag
+            GltfFiles.Felt("C", root.transform); // so that more than one mesh could match the tag
             LogAssert.Expect(LogType.Warning, new System.Text.RegularExpressions.Regex("'A' has no object"));
             KnurlMenu.AddTaggedSurfaces(root, path);
             Assert.AreEqual("", Felt());

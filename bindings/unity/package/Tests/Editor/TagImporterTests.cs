@@ -176,7 +176,7 @@ namespace Knurl.Tests
             }, paths);
         }
 
-        /// <summary>A .glb whose JSON chunk and binary chunk hold these texts.</summary>
+        /// <summary>Writes a .glb with these texts as JSON chunk and binary chunk.</summary>
         string WriteGlb(string json, string binary)
         {
             string path = GltfFiles.Folder + "/chunks.glb";

@@ -33,7 +33,7 @@ namespace Knurl.Tests
             return GltfFiles.Felt(name, root.transform);
         }
 
-        /// <summary>Reads and applies a file; returns what was missed.</summary>
+        /// <summary>Reads and applies a file; returns the failures.</summary>
         List<string> Apply(params string[] namesAndExtras)
         {
             string path = files.Write("model.gltf", namesAndExtras);
@@ -71,7 +71,7 @@ namespace Knurl.Tests
             Assert.AreEqual(Vector3.up, surface.Axis);
         }
 
-        /// <summary>It is the mesh's, so it comes through whatever the node is scaled by; x is mirrored.</summary>
+        /// <summary>The axis is in the mesh's axes, so it survives any scale of the node; x is mirrored.</summary>
         [Test]
         public void A_tags_axis_is_the_surfaces()
         {

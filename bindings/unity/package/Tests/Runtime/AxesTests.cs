@@ -5,7 +5,8 @@ using UnityEngine;
 
 namespace Knurl.Tests
 {
-    /// <summary>Unity's left-handed axes and Knurl's right-handed ones: nothing that a mirror would leave as it is.
+    /// <summary>Conversion between Unity's left-handed axes and Knurl's right-handed ones, with cases that a mirror
+    /// would change.
     /// </summary>
     [TestFixture]
     public class AxesTests : Suite
@@ -103,7 +104,7 @@ namespace Knurl.Tests
             return new Vector3(-along.z, 0f, along.x);
         }
 
-        /// <summary>A plate whose u, or nothing, runs along a direction, with these tangents.</summary>
+        /// <summary>A plate with these tangents, and with u along a direction or without UVs.</summary>
         KnurlSurface MakeTurned(Vector3 along, bool hasUvs, Vector3 tangent)
         {
             Mesh mesh = Plate();
@@ -120,7 +121,7 @@ namespace Knurl.Tests
             return MakeSurface(mesh);
         }
 
-        // 1 mm, as S2 plays it, to which positions say nothing.
+        // 1 mm ridges by S2, which depends on velocity only.
         void RunsAlong(KnurlSurface surface, Vector3 along)
         {
             Assert.AreEqual(1000.0 * 0.04, Frequency(surface, along), 4.0);
@@ -137,19 +138,19 @@ namespace Knurl.Tests
             RunsAlong(surface, along);
         }
 
-        /// <summary>glTFast turns positions into Unity's axes by -x and tangents by -z: where they lie in between, such
-        /// tangents are off by 90 degrees, here for a wall that stands in the file's xy plane.</summary>
+        /// <summary>glTFast turns positions into Unity's axes by -x and tangents by -z: on diagonals such tangents are
+        /// wrong by 90 degrees; here a wall in the file's xy plane.</summary>
         [Test]
         public void RidgesFollowUvsWhateverAnImporterMadeOfTangents()
         {
             Vector3 inFile = new Vector3(1f, 1f, 0f).normalized;
-            Vector3 along = new Vector3(-inFile.x, 0f, inFile.y); // the wall laid down: its y is this plate's z
+            Vector3 along = new Vector3(-inFile.x, 0f, inFile.y); // the wall lies flat: its y is this plate's z
             Vector3 tangent = new Vector3(inFile.x, 0f, inFile.y);
             RunsAlong(MakeTurned(along, true, tangent), along);
         }
 
         [TestCase(true)]
-        [TestCase(false)] // there are some, all of them in one place
+        [TestCase(false)] // UVs exist, but are all equal
         public void WithoutUvsRidgesFollowTangents(bool areNone)
         {
             Vector3 along = new Vector3(1f, 0f, 2f).normalized;
@@ -161,7 +162,7 @@ namespace Knurl.Tests
             RunsAlong(surface, along);
         }
 
-        // Ridges a second at 40 mm/s along `direction`, as one who slides along would be told (Hz).
+        // Temporal frequency at 40 mm/s along `direction` (Hz).
         double Frequency(KnurlSurface surface, Vector3 direction)
         {
             surface.Grating.Method = GratingMethod.S2;
@@ -187,7 +188,8 @@ namespace Knurl.Tests
         [Test]
         public void UvsCountFromWhereFilesCountThem()
         {
-            // v is 0 at the bottom in Unity and at the top in glTF: a crest at v = 1; 7.5 ridges on, at v = 0, a groove.
+            // v is 0 at the bottom in Unity and at the top in glTF: a crest at v = 1; 7.5 ridges on, at v = 0, a
+            // groove.
             KnurlSurface surface = MakeSurface(Plate(0.1f));
             surface.Grating.SpatialFrequency = new Vector2(0f, 75f);
             surface.Grating.Method = GratingMethod.S1;
@@ -240,7 +242,7 @@ namespace Knurl.Tests
             device.StopDevice();
         }
 
-        /// <summary>A stylus whose axes are the device's looks along the z of the device's object.</summary>
+        /// <summary>A stylus with the device's axes points along the z of the device's object.</summary>
         [Test]
         public unsafe void AStylusThatIsNotTurnedStandsAsItsDevicesObject()
         {

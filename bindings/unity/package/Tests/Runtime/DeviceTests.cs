@@ -6,7 +6,7 @@ using UnityEngine.TestTools;
 
 namespace Knurl.Tests
 {
-    /// <summary>What a device does at once; what takes frames is not tested in Unity.</summary>
+    /// <summary>Immediate behaviour of a device; behaviour over several frames is not tested in Unity.</summary>
     [TestFixture]
     public class DeviceTests : Suite
     {
@@ -91,7 +91,7 @@ namespace Knurl.Tests
             KnurlDevice d = MakeDevice("nonsense");
             ExpectError("nonsense");
             d.StartDevice();
-            // Unity shows the object of a message when it is clicked on; stand-ins keep it.
+            // Unity selects the object of a message when it is clicked; the stand-ins record it.
             Assert.That(d.Running, Is.False);
         }
 

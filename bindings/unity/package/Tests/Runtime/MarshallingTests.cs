@@ -8,7 +8,7 @@ using NUnit.Framework;
 
 namespace Knurl.Tests
 {
-    /// <summary>C# and C mean the same bytes.</summary>
+    /// <summary>C# and C agree on every byte.</summary>
     [TestFixture]
     public unsafe class MarshallingTests : Suite
     {
@@ -28,7 +28,7 @@ namespace Knurl.Tests
             return all;
         }
 
-        /// <summary>Not Marshal.SizeOf: what a pointer steps over, which is what C sees.</summary>
+        /// <summary>The step of a pointer, as in C; Marshal.SizeOf may differ.</summary>
         static int SizeOf(Type type)
         {
             MethodInfo method = typeof(MarshallingTests).GetMethod("Step",
@@ -251,7 +251,7 @@ namespace Knurl.Tests
             Assert.That(functions, Is.GreaterThanOrEqualTo(15));
         }
 
-        // So that a default is written and not found.
+        // So that defaults must be written, not just left over.
         static void Fill(void* what, int size)
         {
             for (int i = 0; i < size; i++)
@@ -398,7 +398,8 @@ namespace Knurl.Tests
             return text.Length;
         }
 
-        /// <summary>A null reference is a signal that the runtime handles: it stays an exception, and no end.</summary>
+        /// <summary>The runtime handles the signal of a null reference: it must become an exception, not end the
+        /// process.</summary>
         [Test]
         public void NullReferencesDoNotZeroForces()
         {

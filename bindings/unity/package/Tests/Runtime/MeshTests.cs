@@ -10,7 +10,7 @@ namespace Knurl.Tests
     [TestFixture]
     public class MeshTests : Suite
     {
-        // A plate of 20 mm whose middle is at `x`, added to what is there.
+        // Appends a plate of 20 mm with its middle at `x`.
         static void Append(List<Vector3> points, List<Vector2> uvs, float x)
         {
             points.AddRange(new[]
@@ -47,7 +47,7 @@ namespace Knurl.Tests
             AreNear(Vector3.zero, PressDown(0.08f, 0f), 0.0, "lines");
             KnurlDevice device = MakeDevice();
             Assert.That(device.StartDevice());
-            Assert.That(surface.TriangleCount, Is.EqualTo(2).Or.EqualTo(4)); // quads may be left out, or felt
+            Assert.That(surface.TriangleCount, Is.EqualTo(2).Or.EqualTo(4)); // quads may be skipped or felt
             bool areQuadsFelt = surface.TriangleCount == 4;
             device.StopDevice();
             AreNear(areQuadsFelt ? Wall(Vector3.up) : Vector3.zero, PressDown(0.04f, 0f), 1e-5, "quads");

@@ -5,14 +5,14 @@ using UnityEngine;
 
 namespace Knurl.Tests
 {
-    /// <summary>What every fixture builds on: scenes that are cleared away, and walls that are pressed. An error in the
-    /// log that a test does not expect fails it: the runner sees to that.</summary>
+    /// <summary>Base of all fixtures: clears scenes, presses walls. The runner fails a test that logs an unexpected
+    /// error.</summary>
     public abstract class Suite
     {
         /// <summary>N/m: of every wall that a test makes, unless it says otherwise.</summary>
         protected const float Stiffness = 400f;
 
-        /// <summary>m: how deep Press() goes.</summary>
+        /// <summary>m: depth of Press().</summary>
         protected const double Depth = 0.001;
 
         readonly List<Object> made = new List<Object>();
@@ -93,7 +93,8 @@ namespace Knurl.Tests
             return device;
         }
 
-        /// <summary>What is felt at rest 1 mm below `at`, coming from 10 mm above it along the unit vector `up` (N).
+        /// <summary>The force at rest 1 mm below `at`, after an approach from 10 mm above it along the unit vector `up`
+        /// (N).
         /// </summary>
         protected Vector3 Press(Vector3 at, Vector3 up)
         {
@@ -130,14 +131,14 @@ namespace Knurl.Tests
             }
         }
 
-        /// <summary>What the wall answers at Depth.</summary>
+        /// <summary>The force of the wall at Depth.</summary>
         protected static Vector3 Wall(Vector3 up)
         {
             return up * (float)(Stiffness * Depth);
         }
 
-        /// <summary>How many ridges are crossed on 40 mm along `direction`, through `centre`, on a wall that faces up,
-        /// by method S1, which knows nothing but positions.</summary>
+        /// <summary>Number of ridges crossed on 40 mm along `direction`, through `centre`, on a wall that faces up, by
+        /// method S1, which depends on position only.</summary>
         protected int Ridges(KnurlSurface surface, Vector3 centre, Vector3 direction)
         {
             surface.Grating.Method = GratingMethod.S1;

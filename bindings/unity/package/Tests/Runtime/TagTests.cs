@@ -7,7 +7,7 @@ using UnityEngine;
 
 namespace Knurl.Tests
 {
-    /// <summary>What Knurl's own loader finds in files that are written here.</summary>
+    /// <summary>Results of Knurl's loader for files that are written here.</summary>
     [TestFixture]
     public class TagTests : Suite
     {
