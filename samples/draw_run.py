@@ -1,10 +1,11 @@
 #!/usr/bin/python3
-"""Draws the CSV of `knurl run ... --out RUN.csv` as an SVG picture, and says what was felt. Needs Python alone.
+"""Draws the CSV of `knurl run ... --out RUN.csv` as an SVG picture, and prints a summary of the contact. Needs only
+Python.
 
 usage: draw_run.py RUN.csv OUT.svg
 
 Three curves over time (the temporal frequency f_t of the stroke, the height map, the force), and a few milliseconds of
-the height map where f_t was highest. Grey: no contact. samples/study/plot.py draws more, with matplotlib.
+the height map at the highest f_t. Grey: no contact. samples/study/plot.py draws more, with matplotlib.
 
 SPDX-License-Identifier: MIT
 """
@@ -23,7 +24,7 @@ MOST = 1e9  # of any number, in SI units
 
 
 def one_line(text):
-    """Text of any origin as a line that sends nothing to a terminal."""
+    """Untrusted text as one line without escapes for a terminal."""
     return "".join(character if character.isprintable() else "?" for character in text)
 
 
@@ -39,7 +40,7 @@ def number(row, name, place):
     except (TypeError, ValueError):
         fail(f"{place}: expected a number for {name}, found {repr(text[:40]) if text else 'nothing'}")
     least = 0.0 if name == "ft" else -MOST
-    if not least <= value <= MOST:  # nor is it NaN
+    if not least <= value <= MOST:  # also true of NaN
         fail(f"{place}: expected {least:g} to {MOST:g} for {name}, found {text[:40]}")
     return value
 
@@ -63,7 +64,7 @@ def read(path):
 
 
 def surface_name(cell):
-    """The name in a cell, which begins with an apostrophe if the name alone would be a formula or the word none."""
+    """The name in a cell, which starts with an apostrophe if the name alone would be a formula or the word "none"."""
     return cell[1:] if cell.startswith("'") else cell
 
 
@@ -94,7 +95,7 @@ def time_axis(top, first, last, unit):
 
 
 def round_up(value):
-    """The next of 1, 2, 5 times a power of ten; 1 of nothing."""
+    """The next of 1, 2, 5 times a power of ten; 1 for 0."""
     power = 10 ** math.floor(math.log10(value)) if value > 1e-12 else 1.0
     return next(power * step for step in (1, 2, 5, 10) if value <= 1.0001 * power * step)
 
@@ -106,7 +107,7 @@ def draw(rows):
     frequencies = [row["ft"] for row in rows]
     most = round_up(max(map(abs, heights)) or 0.1)
     parts, start = [], None
-    for i, row in enumerate(rows + [{"surface": ""}]):  # grey where nothing was touched
+    for i, row in enumerate(rows + [{"surface": ""}]):  # grey without contact
         if row["surface"] == "none" and start is None:
             start = times[i]
         elif row["surface"] != "none" and start is not None:
@@ -129,7 +130,7 @@ def draw(rows):
 
 
 def say(rows):
-    """One sentence on what was felt."""
+    """A one-sentence summary of the contact."""
     touched = [row for row in rows if row["surface"] != "none"]
     if not touched:
         return "Nothing was touched."

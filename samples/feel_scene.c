@@ -6,7 +6,7 @@
 
 static int fail(void) {
     fprintf(stderr, "feel_scene: %s\n", knurl_error_message());
-    return 1; /* the process ends: nothing has to be freed */
+    return 1; /* the process ends: no need to free anything */
 }
 
 int main(int argc, char **argv) {

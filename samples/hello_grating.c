@@ -1,5 +1,5 @@
 /* The shortest useful program: a plate with a 1 mm grating, stroked by the fake device for two seconds.
- * With a device on the desk, open it by its name instead of "fake". SPDX-License-Identifier: MIT */
+ * If you have a device, open it by its name instead of "fake". SPDX-License-Identifier: MIT */
 #include <knurl/knurl.h>
 
 #include <stdio.h>
@@ -21,7 +21,7 @@ int main(void) {
     surface.material = &material;
     surface.normal[1] = 1.0; /* the plane's front looks up */
 
-    (void)knurl_device_zero_on_exit(0); /* whatever ends this program, its device is left without force */
+    (void)knurl_device_zero_on_exit(0); /* zero force however this program ends */
     knurl_loop_desc desc;
     knurl_loop_desc_init(&desc, sizeof desc);
     desc.tick_limit = 2000; /* at 1 kHz */

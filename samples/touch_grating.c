@@ -49,11 +49,11 @@ static knurl_result add_plate(sample *s, int which) {
     surface.plane = &plane;
     surface.material = &material;
     surface.position[0] = 2.0 * HALF_WIDTH * (which - 1);
-    surface.normal[1] = 1.0; /* the plate's front looks up */
+    surface.normal[1] = 1.0; /* the plate's front faces up */
     return knurl_scene_add_surface(s->scene, &surface, &s->plates[which]);
 }
 
-/* The plates lie in the device's own coordinates: its origin is in the middle of the middle one. */
+/* The plates are in device coordinates: the origin is at the centre of the middle one. */
 static knurl_result build_scene(sample *s) {
     knurl_workspace workspace;
     knurl_hip_desc hip;
@@ -89,7 +89,7 @@ static double length(const double v[3]) {
     return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
-/* Late ticks come in crowds where real-time scheduling is not permitted: those are only counted. */
+/* Without real-time scheduling there are many late ticks: those are only counted. */
 static void show_faults(const sample *s) {
     knurl_device_event event;
     while (knurl_device_next_event(s->device, &event)) {
@@ -137,13 +137,14 @@ int main(int argc, char **argv) {
             continue;
         }
         if (*end || !(seconds > 0.0 && seconds <= 86400.0)) {
-            (void)knurl_fail(KNURL_ERROR_ARGUMENT, "cannot make sense of '%s'", argv[i]); /* cleans it for terminals */
+            (void)knurl_fail(KNURL_ERROR_ARGUMENT, "cannot make sense of '%s'",
+                             argv[i]); /* removes escapes for terminals */
             (void)fprintf(stderr, "touch_grating: %s\n%s", knurl_error_message(), usage);
             return 2;
         }
     }
     sample s = {0};
-    (void)knurl_device_zero_on_exit(0); /* before the handler of ours, with which Ctrl-C ends by the ramp */
+    (void)knurl_device_zero_on_exit(0); /* before the handler below: Ctrl-C ends with a ramp */
     (void)signal(SIGINT, on_interrupt);
     const int failed = start(&s, uri) != KNURL_OK;
     const double end = seconds > 0.0 ? now_s() + seconds : HUGE_VAL;
@@ -151,7 +152,7 @@ int main(int argc, char **argv) {
         show(&s);
     }
     (void)(failed ? fprintf(stderr, "touch_grating: %s\n", knurl_error_message()) : printf("\n"));
-    knurl_loop_destroy(s.loop); /* by the ramp */
+    knurl_loop_destroy(s.loop); /* ramps the force down first */
     knurl_device_close(s.device);
     knurl_scene_destroy(s.scene);
     return failed;

@@ -17,7 +17,7 @@
         WARM(name "_smooth", BENCH_MESH, BENCH_SMOOTH, KNURL_METHOD_S2, triangles),                                    \
         WARM(name "_friction", BENCH_MESH, BENCH_FRICTIONAL, KNURL_METHOD_S2, triangles)
 
-/* Names stay from release to release: what a name times does not change. Without a suffix: S2, the velocity given. */
+/* Names keep their meaning from release to release. Without a suffix: S2, with a given velocity. */
 const bench_case bench_cases[] = {
     WARM("empty", BENCH_EMPTY, 0, KNURL_METHOD_S2, 0),
     FOAW("motion_foaw", BENCH_FOAW, 0, 0, 0),
@@ -48,14 +48,14 @@ const bench_case bench_cases[] = {
     WARM("worst_planes", BENCH_WORST_PLANES, BENCH_TEXTURED, KNURL_METHOD_S1, 0),
     HIPS("two_hips", BENCH_MESH, 100000, 2),
     HIPS("eight_hips", BENCH_MESH, 100000, 8),
-    HIPS("moving_1k_two_hips", BENCH_MOVING_FIELD, 0, 2), /* edits per second beside a HIP that always ticks */
+    HIPS("moving_1k_two_hips", BENCH_MOVING_FIELD, 0, 2), /* edits per second while another HIP ticks continuously */
     PACED("paced_plane", BENCH_PLANE, 0, 0),
     PACED("paced_plane_thrashed", BENCH_PLANE, 0, 1),
     PACED("paced_mesh_100k", BENCH_MESH, 100000, 0),
     PACED("paced_mesh_100k_thrashed", BENCH_MESH, 100000, 1),
     {NULL, 0, 0, 0, 0, 0, 0, 0, 0}};
 
-/* What one case ticks. */
+/* State of one case. */
 typedef struct subject {
     bench *owner;
     const bench_case *timed;
@@ -64,9 +64,9 @@ typedef struct subject {
     knurl_velocity velocity;
     knurl_grating grating;
     knurl_grating_state grating_state;
-    int64_t editing_ns; /* that `edits` edits took */
+    int64_t editing_ns; /* duration of `edits` edits */
     uint64_t edits;
-    volatile double sink; /* what comes out is used, or it would not be computed */
+    volatile double sink; /* uses the results, so that the compiler keeps the computation */
 } subject;
 
 static int is_moving(const bench_case *c) {
@@ -117,7 +117,7 @@ static knurl_result prepare(bench *b, const bench_case *c, subject *s, bench_res
     return code;
 }
 
-/* What happens between two timed ticks: the hand moves on, and where things move a game sends them on. */
+/* Between two timed ticks: moves the hand on, and starts moves of surfaces. */
 static knurl_result between(subject *s, uint64_t tick, knurl_tick_input *input) {
     bench_stroke(s->timed, s->hip, tick, input);
     const double frame = floor((double)tick * BENCH_FRAME_RATE / BENCH_RATE);
@@ -138,7 +138,7 @@ static int64_t timed(subject *s, const knurl_tick_input *input) {
     return bench_now() - before;
 }
 
-/* As fast as they go: what a tick costs with everything warm. is_repeat: of each tick's times the least is kept. */
+/* Times ticks as fast as possible, with warm caches. is_repeat: keeps the minimum time of each tick. */
 static size_t time_warm(subject *s, size_t ticks, int is_repeat, knurl_result *failed) {
     const bench *b = s->owner;
     const int64_t end = bench_now() + (int64_t)(1e9 * BENCH_SECONDS);
@@ -157,8 +157,8 @@ static size_t time_warm(subject *s, size_t ticks, int is_repeat, knurl_result *f
     return i;
 }
 
-/* Where a tick takes 5 us and more, the system interrupts one of some hundred, and p99.9 would be of interrupts. What a
- * tick does is the same each time that the same ticks are run. */
+/* If a tick takes 5 us or more, the system interrupts one in about a hundred, and p99.9 would measure interrupts. The
+ * work of a tick is the same in each repetition. */
 static size_t time_repeatedly(subject *s, size_t ticks, knurl_result *failed) {
     const size_t count = time_warm(s, ticks, 0, failed);
     for (int run = 1; run < BENCH_WORST_RUNS && !*failed; run++) {
@@ -170,7 +170,7 @@ static size_t time_repeatedly(subject *s, size_t ticks, knurl_result *failed) {
     return count;
 }
 
-/* The same without a reading of the clock at each tick, which some clocks are too coarse for. Returns ns a tick. */
+/* The same without reading the clock at each tick, because some clocks are too coarse. Returns ns per tick. */
 static double time_batches(subject *s, size_t ticks) {
     const bench *b = s->owner;
     const int64_t end = bench_now() + (int64_t)(1e9 * BENCH_SECONDS);
@@ -189,7 +189,7 @@ static double time_batches(subject *s, size_t ticks) {
     return bench_median(b->samples, batches) / BENCH_BATCH;
 }
 
-/* The other HIPs of the same scene, in turn in a thread of their own, which ticks until it is told to stop. */
+/* A thread that ticks the other HIPs of the same scene in turn until it is stopped. */
 typedef struct neighbour {
     subject subject;
     int stop;
@@ -226,7 +226,8 @@ static size_t default_ticks(const bench_case *c) {
 
 int bench_start(bench *b) {
     const double room = fmax(b->ticks, BENCH_TICKS);
-    b->samples = calloc((size_t)room, sizeof *b->samples); /* zeroed, and touched below: no page is new when timed */
+    b->samples =
+        calloc((size_t)room, sizeof *b->samples); /* zeroed and touched below, so that timing causes no page faults */
     if (!b->samples) {
         return 1;
     }
@@ -241,7 +242,7 @@ void bench_end(bench *b) {
     memset(b, 0, sizeof *b);
 }
 
-/* All ticks of the first HIP since its case began are timed ones. */
+/* All ticks of the first HIP since the start of its case are timed. */
 static void tell_shares(const bench *b, bench_result *result) {
     knurl_tick_output last;
     knurl_hip_counts counts;
@@ -277,7 +278,7 @@ int bench_run(bench *b, const bench_case *c, bench_result *result) {
     result->ticks = (double)count;
     if (s.tick == tick_scene) {
         tell_shares(b, result);
-        failed = bench_stage_reset(&b->stage, c); /* or the batches would begin with a jump through surfaces */
+        failed = bench_stage_reset(&b->stage, c); /* otherwise the batches would start with a jump through surfaces */
     }
     if (!failed && !c->paced && c->hips == 1 && !is_moving(c)) {
         result->batch_ns = time_batches(&s, ticks);

@@ -1,9 +1,7 @@
 #!/usr/bin/python3
-"""How much memory a tick touches: instructions, and the cache lines and pages of its code and of its data.
-
-What a tick costs that comes a millisecond after the latest one is not its instructions but what the caches have lost of
-it by then. Needs valgrind (lackey traces every instruction, load and store) and nm. A line counts where it is touched in
-at least half of the ticks; data include the stack.
+"""The memory that a tick touches: instructions, and the cache lines and pages of its code and data. A tick that runs a
+millisecond after the previous one is slowed by cache misses, not by its instructions. Needs valgrind (lackey traces
+every instruction, load and store) and nm. A line counts if at least half of the ticks touch it; data include the stack.
 
 SPDX-License-Identifier: MIT
 """
@@ -17,7 +15,7 @@ import subprocess
 import sys
 
 LINE, PAGE = 64, 4096
-TICKS = 320  # of which the first ones, in which contact begins, do not count
+TICKS = 320  # the first ones, in which contact starts, do not count
 BEGIN = 64
 
 
@@ -32,7 +30,7 @@ def symbols(tool):
 
 
 def ticks_of(tool, case):
-    """For each tick: how many instructions, and the lines of code and of data that they touch, from a trace."""
+    """For each tick: the number of instructions, and the lines of code and data that they touch, from a trace."""
     (entry, _), (caller, size) = symbols(tool)
     command = ["valgrind", "--tool=lackey", "--trace-mem=yes", "--basic-counts=no", "-v", "-v", tool, "bench", "--json",
                "--ticks", str(TICKS), "--case", case]
@@ -40,7 +38,7 @@ def ticks_of(tool, case):
         first, is_tool, tick = "I  unknown", False, None
         for line in process.stderr:
             if tick is None and not line.startswith(first):
-                if line.startswith("--"):  # where the tool is loaded
+                if line.startswith("--"):  # the tool's load address
                     found = re.search(r"svma 0x([0-9a-f]+), avma 0x([0-9a-f]+)", line)
                     if found and is_tool:
                         bias = int(found[2], 16) - int(found[1], 16)

@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define THRASHED (64u << 20) /* bytes: more than a processor's last cache, as a rule */
+#define THRASHED (64u << 20) /* bytes: larger than most last-level caches */
 #define LINE     64u         /* bytes of a cache's line */
 
-/* Writes over the caches until it is told to stop. */
+/* Evicts the caches until it is stopped. */
 typedef struct thrasher {
     unsigned char *memory;
     pthread_t thread;
@@ -45,8 +45,9 @@ typedef struct stroked {
     knurl_loop *loop;
     size_t ticks; /* to time */
     size_t reads, writes;
-    int64_t read_at;       /* ns */
-    knurl_tick_input next; /* made after the latest write, so that the loop finds the caches as others leave them */
+    int64_t read_at; /* ns */
+    knurl_tick_input
+        next; /* computed after the last write, so that the loop finds the caches as other code leaves them */
 } stroked;
 
 static void get_info(void *user, knurl_device_info *info) {

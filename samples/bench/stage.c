@@ -12,7 +12,7 @@
 #define FIELD_SWING   0.0001 /* m */
 #define MOVING        10
 #define MOVING_SWING  0.005 /* m */
-#define MOVING_HEIGHT 0.05  /* m from one to the next below it: only the first is felt */
+#define MOVING_HEIGHT 0.05  /* m from one to the next below it: only the first is touched */
 
 static void make_material(const bench_case *c, knurl_material_desc *m) {
     knurl_material_desc_init(m, sizeof *m);
@@ -127,8 +127,7 @@ static knurl_result add_surfaces(knurl_scene *scene, const bench_case *c, const 
     }
 }
 
-/* Device axes are the scene's, positions are exact but where FOAW is asked for: nothing but the tick is to differ from
- * case to case. */
+/* Device axes are the scene's, and positions are exact except for FOAW, so that cases differ only in their ticks. */
 static knurl_result configure_hips(knurl_scene *scene, const bench_case *c) {
     knurl_result result = KNURL_OK;
     for (uint32_t hip = 0; hip < c->hips && !result; hip++) {
@@ -180,10 +179,10 @@ static knurl_result build(bench_stage *stage, const bench_case *c) {
     return result ? result : measure(stage);
 }
 
-/* The same scene with another material, so that a mesh is built once for all that is timed on it. */
+/* The same scene with another material, so that a mesh is built once for all of its cases. */
 static knurl_result change(const bench_stage *stage, const bench_case *c) {
     knurl_material_desc m;
-    knurl_result result = configure_hips(stage->scene, c); /* forgets what they touched */
+    knurl_result result = configure_hips(stage->scene, c); /* clears their contacts */
     make_material(c, &m);
     for (uint32_t i = 0; i < knurl_scene_get_surface_count(stage->scene) && !result; i++) {
         result = knurl_scene_set_material(stage->scene, knurl_scene_get_surface(stage->scene, i), &m);
@@ -205,14 +204,14 @@ knurl_result bench_stage_set(bench_stage *stage, const bench_case *c) {
     stage->asked_triangles = c->triangles;
     stage->hips = c->hips;
     const knurl_result result = build(stage, c);
-    if (result) { /* half a scene is none */
+    if (result) { /* do not keep half a scene */
         knurl_scene_destroy(stage->scene);
         stage->scene = NULL;
     }
     return result;
 }
 
-/* The tiles of the rows either side of the one that is felt, up and down. */
+/* Moves the tiles of the rows on both sides of the touched one up and down. */
 static knurl_result move_field(bench_stage *stage, double seconds, uint32_t *moved) {
     static const double level[4] = {0.0, 0.0, 0.0, 1.0};
     knurl_result result = KNURL_OK;
@@ -235,7 +234,7 @@ static knurl_result move_stack(bench_stage *stage, double seconds, uint32_t *mov
     for (uint32_t i = 0; i < MOVING && !result; i++) {
         const double swing = sin(2.0 * acos(-1.0) * seconds + i);
         const double position[3] = {MOVING_SWING * swing, 0.0, -MOVING_HEIGHT * i};
-        const double half_turn = i > 0 ? 0.05 * swing : 0.0; /* the one that is felt stays level */
+        const double half_turn = i > 0 ? 0.05 * swing : 0.0; /* the touched one stays level */
         const double rotation[4] = {sin(half_turn), 0.0, 0.0, cos(half_turn)};
         result = knurl_scene_set_transform(stage->scene, knurl_scene_get_surface(stage->scene, i), position, rotation,
                                            1.0 / BENCH_FRAME_RATE);

@@ -6,9 +6,9 @@
 #include <math.h>
 #include <string.h>
 
-#define LINE 0.0027 /* m: a y that no row of vertices or seam of tiles lies on; a HIP more, a line further */
+#define LINE 0.0027 /* m: a y without rows of vertices or seams of tiles; each further HIP is one line further */
 
-/* From just outside, where crests reach, into all planes; along the edge of two, to and fro within the corner of
+/* From just outside, within reach of the crests, into all planes; along the edge of two, to and fro in the corner of
  * three. */
 static void place_in_corner(const bench_case *c, double seconds, double out[3]) {
     const double swing = sin(BENCH_PEAK_SPEED / BENCH_REACH * seconds);
@@ -49,7 +49,7 @@ void bench_stroke(const bench_case *c, uint32_t hip, uint64_t tick, knurl_tick_i
         input->velocity[axis] = (input->position[axis] - last[axis]) * BENCH_RATE;
     }
     input->has_velocity = !c->estimates;
-    for (int axis = 0; axis < 3 && c->estimates; axis++) { /* FOAW's work is to make sense of an encoder */
+    for (int axis = 0; axis < 3 && c->estimates; axis++) { /* FOAW needs an encoder's counts */
         input->position[axis] = floor(input->position[axis] / BENCH_RESOLUTION + 0.5) * BENCH_RESOLUTION;
     }
 }

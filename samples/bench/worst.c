@@ -1,5 +1,5 @@
-/* Scenes in which contact has the most to look at: crests that reach through a mesh, crowds, heaps. Run one by its
- * name; they are not part of the default run. SPDX-License-Identifier: MIT */
+/* Worst cases for contact: crests that reach through a mesh, crowds, heaps. They run only by their names.
+ * SPDX-License-Identifier: MIT */
 #include "bench.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 #define RADIUS   0.03 /* m: of spheres */
 #define CROWD    32   /* spheres in one place: as many as a HIP's list holds */
 #define PLANES   1000
-#define DRIFT    0.002 /* m: how far a moving plane goes from the middle */
+#define DRIFT    0.002 /* m: a moving plane's largest distance from the middle */
 #define TRIANGLE 0.05  /* m: from the middle of a heap to a corner */
 
 /* The next number of a sequence, -1 to 1. */
@@ -21,7 +21,7 @@ static double next(uint64_t *seed) {
 typedef struct soup {
     float *positions;
     uint32_t *indices;
-    uint32_t corners; /* three a triangle, each with a vertex of its own */
+    uint32_t corners; /* three per triangle, each with its own vertex */
 } soup;
 
 static int soup_make(uint32_t triangles, soup *s) {
@@ -44,16 +44,16 @@ static void soup_add(soup *s, const double corner[3]) {
     s->corners++;
 }
 
-/* A point of a sphere: of the cube's face, from -1 to 1 each way. */
+/* A point of the sphere from a point (u, v) of the cube's face, -1 to 1 each. */
 static void on_sphere(int face, double u, double v, double out[3]) {
     const double side = face < 3 ? 1.0 : -1.0;
     const double scale = RADIUS / sqrt(1.0 + u * u + v * v);
     out[face % 3] = side * scale;
     out[(face + 1) % 3] = u * scale;
-    out[(face + 2) % 3] = side * v * scale; /* fronts outwards */
+    out[(face + 2) % 3] = side * v * scale; /* front faces outwards */
 }
 
-/* A cube's six grids, blown up to a sphere. */
+/* A cube's six grids, projected onto a sphere. */
 static int make_sphere(uint32_t triangles, soup *s) {
     static const int corners[6][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
     const int n = (int)lround(sqrt(triangles / 12.0));

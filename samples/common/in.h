@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-/* A line of at most 64 KiB as getline() gives it; -1 at the end, and where a line is longer, with *too_long 1. */
+/* Reads a line of at most 64 KiB like getline(). -1 at the end, or, with *too_long 1, if a line is longer. */
 long in_line(FILE *stream, char **line, size_t *room, int *too_long);
 
 #endif

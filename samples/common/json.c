@@ -9,8 +9,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Of the character at `text` its bytes, and the code point if it has to be escaped: it is one that knurl_text_line()
- * keeps from terminals, or U+FFFD for a byte that is no UTF-8. 0: it may be printed as it is. */
+/* The number of bytes of the character at `text`, and its code point if it must be escaped because knurl_text_line()
+ * would remove it; U+FFFD for a byte that is not UTF-8. Code 0: print it unchanged. */
 static int measure(const char *text, unsigned long *code) {
     const unsigned char *u = (const unsigned char *)text;
     const int length = u[0] < 0xc0 ? 1 : u[0] < 0xe0 ? 2 : u[0] < 0xf0 ? 3 : 4;
@@ -27,7 +27,8 @@ static int measure(const char *text, unsigned long *code) {
         *code = 0;
         return bytes;
     }
-    const int is_utf8 = written == 1 && bytes == length && (u[0] < 0x80 || length > 1); /* else a '?' for each byte */
+    const int is_utf8 =
+        written == 1 && bytes == length && (u[0] < 0x80 || length > 1); /* otherwise a '?' for each byte */
     *code = is_utf8 ? point : 0xfffd;
     return is_utf8 ? bytes : 1;
 }

@@ -5,19 +5,19 @@
 #include <stddef.h>
 #include <stdio.h>
 
-/* A JSON text as it is written; commas and line breaks are the writer's. */
+/* State of a JSON text that is being written; the writer adds commas and line breaks. */
 typedef struct json_writer {
     FILE *stream;
     int pretty; /* 0: on one line */
     int depth;
-    int first; /* nothing stands before the next value in its object or array */
+    int first; /* the next value is the first of its object or array */
 } json_writer;
 
 void json_start(json_writer *json, FILE *stream, int pretty);
 
-/* Values: `key` is null in an array. What is not finite is null. */
+/* Values: `key` is null in an array. Numbers that are not finite become null. */
 void json_open(json_writer *json, const char *key, char bracket); /* '{' or '[' */
-void json_close(json_writer *json, char bracket);                 /* '}' or ']'; a line's end after the last */
+void json_close(json_writer *json, char bracket);                 /* '}' or ']'; ends the line after the last */
 void json_number(json_writer *json, const char *key, double value);
 void json_flag(json_writer *json, const char *key, int value);
 void json_string(json_writer *json, const char *key, const char *value);

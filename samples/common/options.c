@@ -14,7 +14,7 @@
 const char *tool_name = "knurl";
 
 int tool_error(int code, const char *format, ...) {
-    char text[4608]; /* a path and a sentence */
+    char text[4608]; /* room for a path and a sentence */
     va_list arguments;
     va_start(arguments, format);
     (void)vsnprintf(text, sizeof text, format, arguments);
@@ -59,7 +59,8 @@ static int set_value(const tool_option *option, const char *text) {
 
 #define WORD_MAX 32
 
-/* Letters to change, insert, remove or swap with a neighbour, to turn one word into another; of long words WORD_MAX. */
+/* The number of letters to change, insert, remove or swap with a neighbour to get from one word to the other; WORD_MAX
+ * for long words. */
 static size_t edit_distance(const char *a, const char *b) {
     size_t rows[WORD_MAX + 1][WORD_MAX + 1];
     const size_t n = strlen(a);
@@ -123,7 +124,7 @@ static int unknown_option(const char *command, const tool_option *options, size_
                       near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "", tool_name);
 }
 
-/* One option at argv[*i], which goes on to its value where that is an argument of its own. */
+/* Parses the option at argv[*i]; *i advances to its value if that is a separate argument. */
 static int parse_option(int argc, char **argv, int *i, const tool_option *option) {
     const char *value = strchr(argv[*i], '=');
     if (option->kind == TOOL_FLAG) {

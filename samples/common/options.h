@@ -6,23 +6,24 @@
 
 #include <stddef.h>
 
-/* Exit codes; TOOL_INTERRUPTED and a signal's number as shells have it. */
+/* Exit codes; TOOL_INTERRUPTED plus a signal's number, as in shells. */
 enum { TOOL_OK = 0, TOOL_FAILURE = 1, TOOL_USAGE = 2, TOOL_CHECK = 3, TOOL_NO_CONTACT = 4, TOOL_INTERRUPTED = 128 };
 
-/* Who says what is wrong, and whose --help is named: "knurl", unless main() sets another. */
+/* The program's name in messages: "knurl" unless main() sets another. */
 extern const char *tool_name;
 
 /* Prints "knurl: ..." as one line on stderr; returns `code`. */
 int tool_error(int code, const char *format, ...) KNURL_PRINTF(2, 3);
 
-/* Prints "knurl: KIND: ..." as one line on stderr, for what does not end the program: "note", "warning", "hint". */
+/* Prints "knurl: KIND: ..." as one line on stderr, for messages that do not end the program: "note", "warning", "hint".
+ */
 void tool_tell(const char *kind, const char *format, ...) KNURL_PRINTF(2, 3);
 
 /* tool_error() with the library's own message. */
 int tool_library_error(int code, const char *what);
 
-/* What main() returns: `code`, or TOOL_FAILURE where that is TOOL_OK and standard output cannot be written: a full disk
- * must not look like success. */
+/* The result of main(): `code`, or TOOL_FAILURE if that is TOOL_OK and standard output cannot be written, so that a
+ * full disk does not look like success. */
 int tool_end(int code);
 
 enum { TOOL_FLAG, TOOL_TEXT, TOOL_NUMBER };
@@ -35,14 +36,14 @@ typedef struct tool_option {
     const char *unit; /* for messages */
 } tool_option;
 
-/* The name that was likely meant by a word: the nearest within two wrong letters, or null. */
+/* The nearest name to a mistyped word, within two wrong letters, or null. */
 const char *tool_nearest(const char *word, const char *const *names, size_t count);
 
-/* Reads options (--name value or --name=value) and at most one positional argument. Returns TOOL_OK or TOOL_USAGE,
- * having said why. */
+/* Reads options (--name value or --name=value) and at most one positional argument. Returns TOOL_OK, or TOOL_USAGE
+ * after printing the reason. */
 int tool_parse(int argc, char **argv, const tool_option *options, size_t count, const char **positional);
 
-/* One or two numbers with a comma between; 0 unless the whole text is that. */
+/* Parses one or two numbers with a comma in between; returns 0 on any other text. */
 int tool_parse_pair(const char *text, double out[2]);
 
 #endif

@@ -11,8 +11,8 @@
 #include <termios.h>
 #include <unistd.h>
 
-/* A standard stream that is closed gets a descriptor that cannot be written to; else the first file that is opened
- * would take its number, and be written to by whatever prints. */
+/* Gives a closed standard stream a descriptor that cannot be written to; otherwise the first opened file would get its
+ * number, and messages would be written into it. */
 static void occupy_standard_streams(void) {
     int handle = 0;
     while (handle >= 0 && handle <= STDERR_FILENO) {
@@ -41,8 +41,7 @@ void os_on_interrupt(void (*handler)(int number)) {
 
 static void (*before_end)(void);
 
-/* Every signal that by default ends a process and comes from outside it: without crashes, and without SIGPROF, whose
- * handler may be a profiler's. */
+/* All signals from outside that end a process by default; not crashes, and not SIGPROF, which a profiler may handle. */
 static struct {
     int number;
     struct sigaction earlier;
@@ -61,7 +60,7 @@ static struct {
 #endif
 };
 
-/* The earlier action comes when this handler has returned: the library's, which zeroes forces, or the default. */
+/* After this handler returns, the earlier action follows: the library's, which zeroes forces, or the default. */
 static void on_end(int number) {
     before_end();
     for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
@@ -72,7 +71,7 @@ static void on_end(int number) {
     (void)raise(number);
 }
 
-/* A signal that is ignored stays so, and one that interrupts goes on doing that. */
+/* Ignored signals stay ignored, and those of os_on_interrupt() keep their handler. */
 void os_before_end(void (*handler)(void)) {
     before_end = handler;
     for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
@@ -133,7 +132,7 @@ FILE *os_open_input(const char *path, const char **why) {
     const int handle = open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC); /* does not wait for a writer */
     const int is_open = handle >= 0 && fstat(handle, &found) == 0;
     const int is_good = is_open && (S_ISREG(found.st_mode) || S_ISFIFO(found.st_mode));
-    if (is_good && fcntl(handle, F_SETFL, 0) == 0) { /* reading waits for what a writer still has to say */
+    if (is_good && fcntl(handle, F_SETFL, 0) == 0) { /* reads wait for the writer */
         FILE *stream = fdopen(handle, "r");
         if (stream) {
             return stream;

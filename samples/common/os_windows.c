@@ -17,7 +17,7 @@
 
 #define PATH_ROOM 4096 /* characters */
 
-/* errno from what the system said. */
+/* Sets errno from the system's error. */
 static int fail(void) {
     static const struct {
         DWORD code;
@@ -50,8 +50,8 @@ static int widen(const char *path, wchar_t wide[PATH_ROOM]) {
 
 /* --- the process --- */
 
-/* The command line in UTF-8: main()'s is in the system's code page, in which not every path has a name. For as long as
- * the process lives. Null: no memory. */
+/* The command line in UTF-8: main()'s is in the system's code page, which cannot represent every path. Never freed.
+ * Null: out of memory. */
 static char **read_arguments(int *count) {
     wchar_t **wide = CommandLineToArgvW(GetCommandLineW(), count);
     char **all = wide ? calloc((size_t)*count + 1, sizeof *all) : NULL;
@@ -86,19 +86,19 @@ void os_begin(int *argc, char ***argv) {
     (void)_setmode(_fileno(stdin), _O_BINARY);
     (void)_setmode(_fileno(stdout), _O_BINARY);
     (void)_setmode(_fileno(stderr), _O_BINARY);
-    code_page_before = GetConsoleOutputCP(); /* the console's: it outlives this process */
+    code_page_before = GetConsoleOutputCP(); /* of the console, which outlives this process */
     if (code_page_before && SetConsoleOutputCP(CP_UTF8)) {
         (void)atexit(restore_code_page);
     }
     HANDLE console = GetStdHandle(STD_ERROR_HANDLE);
-    if (GetConsoleMode(console, &mode)) { /* progress is a line that is written again: "\r\033[K" */
+    if (GetConsoleMode(console, &mode)) { /* for progress, which rewrites its line: "\r\033[K" */
         (void)SetConsoleMode(console, mode | ENABLE_PROCESSED_OUTPUT | ENABLE_VIRTUAL_TERMINAL_PROCESSING);
     }
 }
 
 static void (*volatile on_interrupt)(int number);
 static void (*volatile before_end)(void);
-static volatile int is_waiting; /* for the program that runs instead: the event is its own */
+static volatile int is_waiting; /* for the program that runs instead: it handles the event */
 
 static BOOL WINAPI on_console(DWORD event) {
     const int is_key = event == CTRL_C_EVENT || event == CTRL_BREAK_EVENT;
@@ -111,7 +111,7 @@ static BOOL WINAPI on_console(DWORD event) {
     if (before_end) {
         before_end();
     }
-    return FALSE; /* to the handlers from before, of which the last one ends the process */
+    return FALSE; /* continue with earlier handlers; the last one ends the process */
 }
 
 static void handle_console(void) {
@@ -171,7 +171,7 @@ int os_wait_for_key(void) {
 }
 
 void os_forget_keys(void) {
-    (void)FlushConsoleInputBuffer(GetStdHandle(STD_INPUT_HANDLE)); /* fails where it is no console */
+    (void)FlushConsoleInputBuffer(GetStdHandle(STD_INPUT_HANDLE)); /* fails if it is not a console */
 }
 
 /* --- files --- */
@@ -191,7 +191,7 @@ static int identify(HANDLE handle, os_file *found) {
     return 0;
 }
 
-/* Others may go on using the file meanwhile, remove it and rename it, as elsewhere. */
+/* Other processes may use, remove and rename the file meanwhile, as on other systems. */
 static HANDLE open_wide(const char *path, DWORD access, DWORD creation) {
     wchar_t wide[PATH_ROOM];
     return widen(path, wide) ? INVALID_HANDLE_VALUE
@@ -210,13 +210,13 @@ int os_identify(const char *path, os_file *found) {
 }
 
 int os_identify_stream(FILE *stream, os_file *found) {
-    /* NOLINTNEXTLINE(performance-no-int-to-ptr): so the C library has it */
+    /* NOLINTNEXTLINE(performance-no-int-to-ptr): the C library's interface */
     HANDLE handle = (HANDLE)_get_osfhandle(_fileno(stream));
-    /* One that is for writing alone may not tell: wine's, where a shell has opened it. */
+    /* A write-only handle may not be identifiable, such as wine's if a shell has opened it. */
     return identify(handle, found) && handle == INVALID_HANDLE_VALUE ? -1 : 0;
 }
 
-/* Takes the handle. */
+/* Takes ownership of the handle. */
 static FILE *stream_of(HANDLE handle, int flags, const char *mode) {
     const int number = handle == INVALID_HANDLE_VALUE ? -1 : _open_osfhandle((intptr_t)handle, flags | _O_BINARY);
     FILE *stream = number >= 0 ? _fdopen(number, mode) : NULL;

@@ -12,13 +12,13 @@
 #include <string.h>
 
 #define TEMPORARY_ROOM 4096 /* PATH_MAX on Linux */
-#define NAME_KEPT      200  /* bytes of the file's own name in the temporary one: names end at 255 */
+#define NAME_KEPT      200  /* bytes of the file's name kept in the temporary name: names are limited to 255 */
 
 static os_file *inputs; /* for as long as the process lives */
 static size_t input_count;
-static int inputs_missing; /* 1: there was no memory for all of them, so that none is told apart */
+static int inputs_missing; /* 1: there was no memory for all of them, so that no check is possible */
 
-/* What a signal removes: a study writes three files at a time at most. A slot is filled before `used` says so. */
+/* Files that a signal removes; a study writes at most three at a time. A slot is filled before `used` is set. */
 static struct {
     char path[TEMPORARY_ROOM];
     volatile sig_atomic_t used;
@@ -70,7 +70,7 @@ static int is_stdout(const char *path, const os_file *found) {
     return strcmp(path, "-") == 0 || (os_identify_stream(stdout, &standard) == 0 && is_same(&standard, found));
 }
 
-/* 1 for what is not a file by its own name: /dev/stdout may lead to a regular file, and is not to be renamed over. */
+/* 1 for paths that must not be replaced by a rename: /dev/stdout may lead to a regular file. */
 static int is_special(const char *path, const os_file *found) {
     return !found->is_regular || strncmp(path, "/dev/", 5) == 0 || strncmp(path, "/proc/", 6) == 0 ||
            is_stdout(path, found);
@@ -84,7 +84,7 @@ static void remove_unfinished(void) {
     }
 }
 
-/* A slot for a name that is not taken yet. */
+/* Finds a free slot for a name. */
 static int enlist(const char *path) {
     for (int i = 0; i < (int)(sizeof unfinished / sizeof *unfinished); i++) {
         if (!unfinished[i].used) {
@@ -105,7 +105,7 @@ static void strike(out_file *file) {
     file->partial = NULL;
 }
 
-/* In the same folder, so that it can be renamed: PATH.RANDOM.part, created here or not at all. */
+/* In the same folder, so that it can be renamed: PATH.RANDOM.part, which must not exist yet. */
 static FILE *create_temporary(out_file *file) {
     char name[TEMPORARY_ROOM];
     const char *base = os_base_name(file->path);
@@ -190,7 +190,8 @@ static int finish(out_file *file, int may_be_replaced) {
     int failed = ferror(file->stream);
     failed = fclose(file->stream) != 0 || failed;
     file->stream = NULL;
-    if (!failed && file->partial && refuse_input(file->path)) { /* again: links may have changed since it was opened */
+    if (!failed && file->partial &&
+        refuse_input(file->path)) { /* check again: links may have changed since it was opened */
         out_discard(file);
         return 1;
     }
@@ -199,7 +200,7 @@ static int finish(out_file *file, int may_be_replaced) {
         (void)fail(file->path, strerror(errno));
     } else {
         if (file->partial && !may_be_replaced) {
-            out_protect(file->path); /* against the next output */
+            out_protect(file->path); /* from later outputs */
         }
         strike(file);
     }

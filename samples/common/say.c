@@ -1,11 +1,11 @@
-/* Text for people. SPDX-License-Identifier: MIT */
+/* Messages. SPDX-License-Identifier: MIT */
 #include "say.h"
 
 #include <stdarg.h>
 #include <string.h>
 #include <unistd.h>
 
-static int has_progress; /* a line of it stands on the terminal */
+static int has_progress; /* a line of it is on the terminal */
 
 void say_progress_end(void) {
     if (has_progress) {
@@ -15,12 +15,12 @@ void say_progress_end(void) {
 }
 
 static void print(FILE *stream, const char *format, va_list arguments) {
-    char text[5120]; /* a path and a sentence */
+    char text[5120]; /* room for a path and a sentence */
     (void)vsnprintf(text, sizeof text, format, arguments);
     const size_t length = strlen(format);
     const int is_line = length > 0 && format[length - 1] == '\n';
     const size_t written = strlen(text);
-    if (is_line && written > 0 && text[written - 1] == '\n') { /* it is not the end of what was cut */
+    if (is_line && written > 0 && text[written - 1] == '\n') { /* remove the line end of a text that was cut */
         text[written - 1] = '\0';
     }
     (void)knurl_text_line(text, sizeof text, text);
@@ -51,6 +51,6 @@ void say_progress(const char *format, ...) {
     va_start(arguments, format);
     print(stderr, format, arguments);
     va_end(arguments);
-    fputs("\033[K", stderr); /* the rest of a longer one */
+    fputs("\033[K", stderr); /* clear the rest of a longer line */
     has_progress = 1;
 }

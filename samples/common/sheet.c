@@ -103,7 +103,7 @@ static double distance2_to_edge(const double p[3], const double a[3], const doub
     return dot(offset, offset);
 }
 
-/* To the plane where the point's foot is inside all three edges, else to the nearest edge. */
+/* The distance to the plane if the point's projection is inside all three edges, otherwise to the nearest edge. */
 static double distance2_to_triangle(const double p[3], const double corners[3][3]) {
     double sides[3][3];
     double normal[3];
@@ -129,7 +129,7 @@ static double distance2_to_triangle(const double p[3], const double corners[3][3
     return inside ? height * height / dot(normal, normal) : nearest;
 }
 
-/* The cells that [low, high] of a grid line of `count` cells over [-half, half] runs through. */
+/* The range of cells that [low, high] covers on a grid of `count` cells over [-half, half]. */
 static void cells_within(double low, double high, double half, uint32_t count, uint32_t *first, uint32_t *last) {
     const double scale = count / (2.0 * half);
     *first = (uint32_t)fmax(0.0, floor((low + half) * scale));

@@ -1,4 +1,4 @@
-/* conform: holds a device against the promises of docs/safety.md. See docs/devices.md. SPDX-License-Identifier: MIT */
+/* conform: tests a device against the promises of docs/safety.md. See docs/devices.md. SPDX-License-Identifier: MIT */
 #include "json.h"
 #include "options.h"
 #include "trial.h"

@@ -51,7 +51,7 @@ static knurl_result start(void *user, double update_rate_hz) {
     return KNURL_OK;
 }
 
-/* The hand rests, or goes somewhere at up to 0.5 m/s; a third of the time straight down. */
+/* The hand rests, or moves to a random point at up to 0.5 m/s; a third of the time straight down. */
 static void choose(hand *h) {
     const double fast = uniform(h) < 0.3 ? 0.0 : between(h, 0.005, 0.5);
     const int down = uniform(h) < 0.33;

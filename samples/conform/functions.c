@@ -9,7 +9,7 @@
 
 enum { WELL, LOST, SILENT, NOT_FINITE, JUMP, FAULTS = JUMP };
 
-/* s without a position, after which the latest one is no longer valid. */
+/* s without a position, after which the last one is no longer valid. */
 #define PATIENCE 0.01
 
 static struct {
@@ -20,7 +20,7 @@ static struct {
     double period; /* s */
     uint64_t without, cycles_read;
     int is_closed;
-    int is_limp; /* the latest force was zero */
+    int is_limp; /* the last force was zero */
 } f;
 
 /* An I/O thread's writes belong to no tick. The ticks' forces are judged by their outputs; here, each write by itself.
@@ -110,7 +110,7 @@ static knurl_result reopen(void *user) {
         return KNURL_ERROR_DEVICE_LOST;
     }
     f.is_off = 0;
-    return f.inner.reopen ? f.inner.reopen(user) : KNURL_OK; /* it was never away */
+    return f.inner.reopen ? f.inner.reopen(user) : KNURL_OK; /* it was never lost */
 }
 
 static void close_it(void *user) {

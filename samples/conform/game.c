@@ -71,7 +71,7 @@ static void resume(trial *t) {
 }
 
 static void halt(trial *t) {
-    t->j->halted = t->is_stepped; /* else the tick that runs now may still have a force */
+    t->j->halted = t->is_stepped; /* otherwise a tick that runs now may still have a force */
     knurl_device_halt(t->device);
 }
 
@@ -81,7 +81,7 @@ static const struct {
     const char *name;
     void (*act)(trial *t);
     int weight;
-    int waits; /* 1: it runs ticks, which are judged meanwhile */
+    int waits; /* 1: it runs ticks, which are judged */
 } acts[] = {{"a surface was moved", trial_move_surface, 8, 0},
             {"a surface closed over the hand", trial_close_over, 6, 1},
             {"a surface was added", trial_add_surface, 3, 0},

@@ -47,17 +47,17 @@ typedef struct judge_breach {
     uint64_t seed;     /* of the first */
     uint64_t tick;     /* its force, counted from the trial's start */
     double worst;      /* N beyond what is allowed */
-    const char *after; /* the game's latest call before the first; static */
+    const char *after; /* the game's last call before the first; static */
 } judge_breach;
 
 #define JUDGE_SURFACES 32
 
-/* A surface as the force law knows it. */
+/* The judge's copy of a surface's material and contact. */
 typedef struct judge_surface {
     knurl_surface_id id; /* 0: none */
     double stiffness;    /* N/m, at most */
     double crest;        /* m: the greatest height since it was added */
-    int touched;         /* at the latest tick */
+    int touched;         /* at the last tick */
 } judge_surface;
 
 typedef struct judge {
@@ -71,7 +71,7 @@ typedef struct judge {
     int slack;         /* ticks by which haptic thread and game may differ; 0: the loop is stepped */
     int sees_writes;   /* 1: judge_write() is called by the device's own write() */
     uint64_t seed;
-    const char *after; /* the game's latest call */
+    const char *after; /* the game's last call */
     int lock;
 
     /* the game's state */
@@ -89,7 +89,7 @@ typedef struct judge {
     double theta; /* heat */
 
     /* forces seen */
-    double previous[3], force[3]; /* N; the latest, once judge_tick() has judged its step */
+    double previous[3], force[3]; /* N; the last judged force, and the present one */
     int pending;                  /* `force` was written, its step is not judged yet */
     double height, wave_value;
     knurl_surface_id deepest;
@@ -142,7 +142,7 @@ double judge_wave_step(judge *j);
 /* Gratings restart. */
 void judge_forget_contacts(judge *j);
 
-/* Records that `promise` is broken unless the latest force is zero. */
+/* Records that `promise` is broken unless the last force is zero. */
 void judge_expect_zero(judge *j, int promise);
 
 /* Records a broken promise and its excess, N. */

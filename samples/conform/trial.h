@@ -35,7 +35,7 @@ typedef struct trial {
     knurl_surface_id surfaces[TRIAL_SURFACES];
     int surface_count;
     int is_stepped;
-    int skipped; /* 1: the latest ticks were not judged; haptic thread only */
+    int skipped; /* 1: the last ticks were not judged; haptic thread only */
     uint64_t ticks;
     int64_t simulated_ns; /* the clock of stepped loops */
     int faults;           /* reported so far */
@@ -73,11 +73,11 @@ int trial_make_loop(trial *t, double ramp_s);
 
 /* --- faults and ends (ends.c) --- */
 
-/* A fault of the device for a while; the loop ends and another begins. */
+/* A fault of the device for a while; the loop ends and another starts. */
 void trial_inject(trial *t);
 void trial_change_loop(trial *t);
 
-/* Checks that a held force comes, if there is no fault. */
+/* Checks that the device gets a held force if there is no fault. */
 void trial_prove_alive(trial *t);
 
 void trial_end(trial *t);

@@ -1,5 +1,5 @@
 extends Node3D
-## What both demo scenes need: arguments after "--", drawing on a CPU, and a picture at the end.
+## Shared by both demo scenes: arguments after "--", drawing on a CPU, and a picture at the end.
 
 ## Shaders are compiled meanwhile; a device's force is zero while a game hangs.
 const WARM_UP_FRAMES := 5
@@ -13,7 +13,7 @@ func warm_up() -> void:
 		await get_tree().process_frame
 
 
-## Saves a picture where --shot asks for one, and ends the demo.
+## Saves a picture if --shot is given, and ends the demo.
 func end(device: KnurlDevice) -> void:
 	var path: String = argument("--shot", "")
 	var status: int = OK
@@ -31,8 +31,8 @@ func argument(option: String, default: String) -> String:
 	return arguments[at + 1] if at >= 0 and at + 1 < arguments.size() else default
 
 
-## Where the CPU draws, whole frames take so long that the device takes the game to hang, and sets
-## its force to zero.
+## If the CPU draws, full frames take so long that the device treats the game as hung and zeroes its
+## force.
 func _draw_coarsely(coarsely: bool) -> void:
 	get_viewport().msaa_3d = Viewport.MSAA_DISABLED if coarsely else Viewport.MSAA_4X
 	get_viewport().scaling_3d_scale = 0.35 if coarsely else 1.0

@@ -1,6 +1,6 @@
 extends Node3D
-## Where the HIP is (the ball), the proxy that the surface holds back (the ring), and the force on
-## the hand (the rod).
+## Draws the HIP (the ball), the proxy on the surface (the ring), and the force on the hand (the
+## rod).
 
 const METRES_PER_NEWTON := 0.05
 const SHORTEST := 1e-4  # m
@@ -11,7 +11,7 @@ const SHORTEST := 1e-4  # m
 func _process(_delta: float) -> void:
 	$Ball.global_position = _device.hip_position
 	$Proxy.global_position = _device.proxy_position
-	# The rod is 1 m long and stands along y; its foot is put on the proxy.
+	# The rod is 1 m long along y; its foot is placed on the proxy.
 	var length: float = maxf(METRES_PER_NEWTON * _device.force.length(), SHORTEST)
 	var up: Vector3 = _device.force.normalized() if length > SHORTEST else Vector3.UP
 	var aside: Vector3 = (

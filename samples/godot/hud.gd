@@ -1,5 +1,5 @@
 extends CanvasLayer
-## What is touched, how fast the ridges go by, how hard they push; and what went wrong.
+## Shows the touched surface, the frequency of its ridges, the force, and faults.
 
 const PAPER := Color(0.09, 0.1, 0.13, 0.85)
 const INK := Color(0.9, 0.93, 0.97)
@@ -39,7 +39,7 @@ func _ready() -> void:
 	_device.fault.connect(_on_fault)
 
 
-## Each mesh's name, over it in the scene.
+## Labels each mesh in the scene with its name.
 func name_meshes() -> void:
 	for surface: Node in get_parent().find_children("*", "KnurlSurface", true, false):
 		_name_mesh((surface as KnurlSurface).get_parent() as MeshInstance3D)
@@ -74,7 +74,7 @@ func _touched_name() -> String:
 
 
 func _on_fault(code: int, text: String) -> void:
-	if code != LATE_TICKS: # they are counted, and come in crowds where no real-time scheduling is to be had
+	if code != LATE_TICKS: # only counted, because there are many without real-time scheduling
 		_tell(text)
 
 
@@ -94,7 +94,7 @@ func _name_mesh(mesh: MeshInstance3D) -> void:
 	label.outline_size = 12
 	label.modulate = INK
 	label.billboard = BaseMaterial3D.BILLBOARD_ENABLED
-	label.top_level = true  # its size is not the mesh's
+	label.top_level = true  # not scaled with the mesh
 	mesh.add_child(label)
 	label.global_position = Vector3(box.get_center().x, 0.004, box.end.z + 0.005)
 

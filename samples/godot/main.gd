@@ -1,5 +1,5 @@
 extends "res://demo.gd"
-## Three gratings side by side, felt with a device, or with the mouse where there is none.
+## Three gratings side by side, felt with a device, or with the mouse if there is no device.
 ##
 ## Arguments after "--":
 ## [codeblock]
@@ -27,12 +27,12 @@ func _ready() -> void:
 		_device.stroke = "sweep"
 	await warm_up()
 	if _device.start() != OK:
-		return  # the device said why
+		return  # the device logged the error
 	if stroke:
 		_end_after_stroke()
 
 
-## A glTF file whose material is tagged, read while the game runs: its surface is made of the tag.
+## Loads a glTF file with a tagged material at run time: the tag becomes a surface.
 func _add_handle() -> void:
 	Gltf.register()
 	var document := GLTFDocument.new()

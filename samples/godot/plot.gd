@@ -1,6 +1,5 @@
 extends Control
-## The last ticks, as the haptic thread played them: the height that the grating asks for, and the
-## force that is felt.
+## The last ticks, as the haptic thread played them: the grating's height, and the force.
 
 const TICKS := 400
 const PAPER := Color(0.09, 0.1, 0.13, 0.85)
@@ -8,7 +7,7 @@ const RULE := Color(1.0, 1.0, 1.0, 0.12)
 const INK := Color(0.6, 0.66, 0.74)
 const HEIGHT := Color(1.0, 0.75, 0.35)
 const FORCE := Color(0.35, 1.0, 0.75)
-const LEAST_HEIGHT := 0.0003  # m: the scales' ends, until more is needed
+const LEAST_HEIGHT := 0.0003  # m: end of the scale; grows if needed
 const LEAST_FORCE := 0.5  # N
 const MARGIN := Vector2(76.0, 14.0)
 const FONT_SIZE := 14
@@ -89,7 +88,8 @@ func _rule(box: Rect2, title: String, top: String, bottom: String, colour: Color
 	)
 
 
-## Held from tick to tick, as a device plays it: steps and not slopes. The newest is at the right.
+## Draws steps, not slopes, because a device holds each value until the next tick. The newest is at
+## the right.
 func _trace(
 	history: PackedFloat32Array, column: int, box: Rect2, low: float, high: float, colour: Color
 ) -> void:

@@ -1,17 +1,17 @@
 extends "res://demo.gd"
-## What moves, what is round and what gives way: a roller that turns, a marble that rolls and a
-## drawer that slides when they are pushed.
+## Moving toys: a roller that turns, and a marble and a drawer that roll and slide when they are
+## pushed.
 ##
 ## Arguments after "--":
 ## [codeblock]
 ## --device URI    auto, touch, falcon, rawhid, mouse (default)
-## --play          a finger of the game's own touches one after another; then the demo ends
+## --play          a simulated finger touches one after another; then the demo ends
 ## --shot PATH     a picture of the window is saved while it pushes the drawer
 ## [/codeblock]
 
 const Overlay := preload("res://addons/knurl/overlay.gd")
 const TURN := 1.0  # rad/s
-const HEIGHT := 0.03  # m: where the finger goes from one to the next
+const HEIGHT := 0.03  # m: height at which the finger moves from one to the next
 
 var _ridges := 0
 
@@ -34,7 +34,7 @@ func _ready() -> void:
 		_play()
 
 
-## Physics turns the roller; Knurl plays that evenly at any frame rate.
+## Physics turns the roller; Knurl renders its motion smoothly at any frame rate.
 func _physics_process(delta: float) -> void:
 	_roller.rotate(Vector3.RIGHT, TURN * delta)
 
@@ -68,7 +68,7 @@ func _play() -> void:
 	await end(_device)
 
 
-## The finger goes from place to place, evenly, each in so many seconds.
+## Moves the finger through the places at a steady speed, `seconds` for each.
 func _go(places: Array, seconds: float) -> void:
 	var from: Vector3 = places[0] if _device.ticks == 0 else _device.hip_position
 	for to: Vector3 in places:

@@ -48,8 +48,8 @@ static int unknown_case(const char *name) {
     return tool_error(TOOL_USAGE, "bench: --case: expected one of %s, found '%s'", known, name);
 }
 
-/* All cases but those on request, or the one: TOOL_OK, or TOOL_FAILURE having said why. What was measured before stays
- * in the report. */
+/* Runs all cases except those on request, or only one: TOOL_OK, or TOOL_FAILURE after printing the reason. Earlier
+ * results stay in the report. */
 static int measure(bench *b, const bench_case *only, report *out) {
     for (const bench_case *c = bench_cases; c->name && out->count < MAX_CASES; c++) {
         if (only ? only != c : bench_is_on_request(c)) {
@@ -194,7 +194,7 @@ int cmd_bench(int argc, char **argv) {
         print_table(out);
     }
     if (only && out->count == 1 && out->rows[0].outcome == BENCH_SKIPPED) {
-        code = TOOL_FAILURE; /* the one that was asked for is not there; the note has said why */
+        code = TOOL_FAILURE; /* the requested case was skipped; a note gave the reason */
     }
     bench_end(&b);
     free(out);

@@ -1,4 +1,4 @@
-/* knurl calibrate falcon: weighs a known mass, so that its forces are what they are called. SPDX-License-Identifier:
+/* knurl calibrate falcon: measures a known mass, so that its forces are correct in newtons. SPDX-License-Identifier:
  * MIT */
 #include "tool.h"
 #include "weigh.h"
@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#define GAIN 0.35 /* while weighing: the gentlest that is likely, see knurl_device_open() */
+#define GAIN 0.35 /* while weighing: the smallest likely value, see knurl_device_open() */
 
 static void wait_for_enter(const char *text) {
     int c = 0;
@@ -54,7 +54,7 @@ static int print_gain(out_file *file, const char *path, double gain, double heav
 static int calibrate(double mass, const char *path) {
     out_file file;
     double heavier = 0.0;
-    if (out_open(&file, path)) { /* before somebody has held the grip for two weighings */
+    if (out_open(&file, path)) { /* open the file before the user holds the grip for two weighings */
         return TOOL_FAILURE;
     }
     if (weigh_both(&heavier)) {

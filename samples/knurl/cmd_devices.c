@@ -1,4 +1,4 @@
-/* knurl devices: lists the connected devices, and what to do where there are problems. SPDX-License-Identifier: MIT */
+/* knurl devices: lists the connected devices, and remedies for problems. SPDX-License-Identifier: MIT */
 #include "help.h"
 #include "tool.h"
 

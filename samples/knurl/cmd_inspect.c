@@ -22,8 +22,8 @@ static void print_material(json_writer *json, const knurl_material_desc *m) {
     json_close(json, '}');
 }
 
-/* Whether a device whose workspace is set down in the scene as it is by default can touch the surface's bounds. What is
- * out of reach costs a tick nothing. */
+/* True if a device with its workspace at the default pose can touch the surface's bounds. Surfaces out of reach cost a
+ * tick nothing. */
 static int in_reach(const knurl_scene *scene, const knurl_device_info *device, const knurl_surface_info *info) {
     knurl_workspace workspace;
     if (knurl_scene_get_workspace(scene, 0, &workspace)) {
@@ -105,7 +105,7 @@ static uint32_t print_scene(json_writer *json, const knurl_scene *scene, const k
     return out_of_reach;
 }
 
-/* --check: for build pipelines. warnings: of surfaces against the device's limits. */
+/* --check: for build pipelines. warnings: number of surfaces that exceed the device's limits. */
 static int check(const char *path, const knurl_scene *scene, uint32_t warnings, uint32_t out_of_reach) {
     if (knurl_scene_get_surface_count(scene) > 0 && warnings == 0 && out_of_reach == 0) {
         return TOOL_OK;
@@ -116,7 +116,7 @@ static int check(const char *path, const knurl_scene *scene, uint32_t warnings, 
                       path, knurl_scene_get_surface_count(scene), warnings, out_of_reach);
 }
 
-/* The Touch, as the fake device has it. */
+/* The fake device's values of a Touch. */
 static knurl_result measure_device(knurl_device_info *info) {
     knurl_device *device = NULL;
     knurl_result result = knurl_device_open("fake", &device);

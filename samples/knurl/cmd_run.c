@@ -24,7 +24,7 @@ typedef struct run_options {
     int32_t stroke_id, method_id;
 } run_options;
 
-/* Everything that a run owns; zeroed, each part is freed only if it is there. */
+/* Everything that a run owns. Starts zeroed; only parts that exist are freed. */
 typedef struct run {
     run_options options;
     knurl_scene *scene;
@@ -38,8 +38,8 @@ typedef struct run {
     faults faults;
     uint64_t ticks;  /* wanted */
     uint64_t cycles; /* stepped, with --fast */
-    double seconds;  /* wanted of the clock; 0: a simulated device's time is its ticks */
-    int gave_up;     /* waited GIVE_UP_S for a position */
+    double seconds;  /* duration on the clock; 0: a simulated device, which counts ticks */
+    int gave_up;     /* no position for GIVE_UP_S */
 } run;
 
 static volatile sig_atomic_t interrupted; /* by this signal */
@@ -115,7 +115,7 @@ static knurl_result set_methods(knurl_scene *scene, int32_t method) {
     return KNURL_OK;
 }
 
-/* Files that a device's URI names: what follows geometry=, firmware= and library=. */
+/* Protects files that a device's URI names after geometry=, firmware= and library=. */
 static void protect_device_files(const char *uri) {
     const char *pair = strchr(uri, '?');
     while (pair) {
@@ -123,7 +123,7 @@ static void protect_device_files(const char *uri) {
         const char *value = pair + 1 + strcspn(pair + 1, "=&");
         if (*value == '=') {
             (void)snprintf(path, sizeof path, "%.*s", (int)strcspn(value + 1, "&"), value + 1);
-            out_protect(path); /* a number is no file's name, as a rule */
+            out_protect(path); /* a number is not normally a file's name */
         }
         pair = strchr(pair + 1, '&');
     }
@@ -151,7 +151,7 @@ static int is_fake(const run_options *o) {
     return !o->device || strncmp(o->device, "fake", 4) == 0;
 }
 
-/* Whether the trace turned out to be in an encoder's counts. */
+/* Prints a note if the trace is in an encoder's counts. */
 static int tell_counts(const run *r) {
     knurl_device_info info;
     knurl_device_info_init(&info, sizeof info);
@@ -163,7 +163,7 @@ static int tell_counts(const run *r) {
     return TOOL_OK;
 }
 
-/* A fake device gets its hand or its trace; a real one is moved by its user. */
+/* Gives a fake device its hand or trace; a real one is moved by its user. */
 static int lay(run *r, knurl_surface_id surface, double *last_t) {
     const run_options *o = &r->options;
     if (!is_fake(o)) {
@@ -191,7 +191,7 @@ static int open_device(run *r) {
                                             : ":?");
     }
     const knurl_result result = knurl_device_open(o->exact && is_fake(o) ? uri : named, &r->device);
-    if (result) { /* a device that exists and cannot be had is a failure; a name that is none is wrong usage */
+    if (result) { /* a device that cannot be opened is a failure; an unknown name is wrong usage */
         const int is_usage = result == KNURL_ERROR_UNKNOWN || result == KNURL_ERROR_ARGUMENT;
         return tool_library_error(is_usage ? TOOL_USAGE : TOOL_FAILURE, "run: --device");
     }
@@ -205,7 +205,7 @@ static int open_device(run *r) {
     if (!isnan(o->seconds)) {
         r->ticks = (uint64_t)fmax(1.0, floor(o->seconds * o->rate + 0.5));
     } else if (o->trace) {
-        r->ticks = (uint64_t)floor(last_t * o->rate + 1e-6) + 1; /* its last row too */
+        r->ticks = (uint64_t)floor(last_t * o->rate + 1e-6) + 1; /* including its last row */
     } else {
         r->ticks = (uint64_t)((o->view ? 600.0 : 5.0) * o->rate);
     }
@@ -213,7 +213,7 @@ static int open_device(run *r) {
     return code;
 }
 
-/* --clamp: beside what the HIP has been given already, a workspace that was moved. */
+/* --clamp: keeps the HIP's other settings, such as a workspace that was moved. */
 static knurl_result clamp(knurl_scene *scene) {
     knurl_hip_desc desc;
     knurl_workspace workspace;
@@ -238,7 +238,7 @@ static void take_tick(const knurl_tick_output *output, void *user) {
     }
 }
 
-/* The page is where ./run web puts it: build/web, beside the preset's folder. */
+/* The page is in build/web, beside the preset's folder, where ./run web puts it. */
 static int open_view(run *r) {
     char page[4096];
     char index[4096 + 16];
@@ -288,7 +288,7 @@ static int make_loop(run *r) {
     if (knurl_loop_create(&desc, &r->loop)) {
         return tool_library_error(TOOL_FAILURE, "run");
     }
-    (void)tool_warn(r->scene); /* after the loop has told the scene what its device is */
+    (void)tool_warn(r->scene); /* after the loop has passed the device's limits to the scene */
     return TOOL_OK;
 }
 
@@ -316,14 +316,14 @@ static int waits_too_long(const knurl_loop_stats *stats, double rate) {
     return (double)(stats->absences - absences) > GIVE_UP_S * rate;
 }
 
-/* s on the clock that loops run by. */
+/* s on the loops' clock. */
 static double now(void) {
     struct timespec t;
     (void)clock_gettime(CLOCK_MONOTONIC, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* Steps a while in simulated time, one cycle at a time, so that each fault is shown with the end of its cycle. */
+/* Steps for a while in simulated time, one cycle at a time, so that each fault is shown with the time of its cycle. */
 static void step(run *r) {
     for (int i = 0; i < 4096; i++) {
         (void)knurl_loop_step(r->loop, 1);
@@ -368,7 +368,7 @@ static void print_percentiles(json_writer *json, const char *key, const knurl_pe
     json_close(json, '}');
 }
 
-/* Standard output, unless it takes the rows or the sound. */
+/* Standard output, unless the rows or the sound go there. */
 static FILE *summary_stream(const run_options *o) {
     const int is_taken = (o->out && strcmp(o->out, "-") == 0) || (o->wav && strcmp(o->wav, "-") == 0);
     return is_taken ? stderr : stdout;
@@ -413,9 +413,9 @@ static void print_summary(const run *r, const knurl_loop_stats *stats) {
     json_close(&json, '}');
 }
 
-/* After the load: until then a signal simply ends the program, for no output is there yet. */
+/* Call it after the load: until then there is no output, so a signal may simply end the program. */
 static void catch_signals(void) {
-    (void)knurl_device_zero_on_exit(0); /* before the handler below, which ends a run by the ramp */
+    (void)knurl_device_zero_on_exit(0); /* before the handler below, which ends a run with a ramp */
     os_on_interrupt(on_signal);
 }
 

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The HIP's motion at one tick: what the file does not give follows from what it gives. */
+/* The HIP's motion at one tick: missing columns are derived from the others. */
 typedef struct motion {
     double position[2];
     double velocity[2];

@@ -12,7 +12,7 @@
 
 #define MAX_COLUMNS 64
 
-/* Takes the line apart at its commas; spaces and the line's end go. Returns the number of cells. */
+/* Splits the line at its commas; removes spaces and the line end. Returns the number of cells. */
 static uint32_t split(char *line, char *cells[MAX_COLUMNS]) {
     uint32_t count = 0;
     char *rest = line;
@@ -41,7 +41,7 @@ static int column_of(char *const *cells, uint32_t count, const char *name) {
     return -1;
 }
 
-/* What a header without the expected names looks like. Its words are not repeated: it may be any file's first line. */
+/* Describes a header without the expected names. Does not quote it, because it may be the first line of any file. */
 static const char *describe_header(const char *line, char *const *cells, uint32_t count, const char *name) {
     for (uint32_t i = 0; i < count; i++) {
         if (strcasecmp(cells[i], name) == 0) {
@@ -54,7 +54,7 @@ static const char *describe_header(const char *line, char *const *cells, uint32_
                                                    : "numbers instead of names";
 }
 
-/* Finds each name's column in the header, which has it once. */
+/* Finds each name's column in the header, which must have it once. */
 static int read_header(const char *path, char *line, const char *const *names, uint32_t count, int *columns) {
     char *cells[MAX_COLUMNS];
     line += strncmp(line, "\xef\xbb\xbf", 3) == 0 ? 3 : 0; /* a byte order mark, as spreadsheets write it */
@@ -89,7 +89,7 @@ static int read_row(const char *path, uint64_t line_number, char *line, const ch
     return TOOL_OK;
 }
 
-/* Adds a row, doubling the capacity where it is used up. */
+/* Adds a row, doubling the capacity if it is full. */
 static int append(const char *path, tool_table *table, uint64_t *capacity, const double *row) {
     const size_t columns = table->columns;
     if (table->row_count == *capacity) {

@@ -1,4 +1,4 @@
-/* Device faults, printed as they come and counted for the summary. SPDX-License-Identifier: MIT */
+/* Device faults, printed as they occur and counted for the summary. SPDX-License-Identifier: MIT */
 #include "faults.h"
 
 #include <string.h>
@@ -8,7 +8,7 @@ void faults_start(faults *f) {
     struct timespec now;
     memset(f, 0, sizeof *f);
 #ifdef CLOCK_BOOTTIME
-    (void)clock_gettime(CLOCK_BOOTTIME, &now); /* as knurl_device_event.time_ns */
+    (void)clock_gettime(CLOCK_BOOTTIME, &now); /* the clock of knurl_device_event.time_ns */
 #else
     (void)clock_gettime(CLOCK_MONOTONIC, &now);
 #endif

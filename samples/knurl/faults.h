@@ -1,4 +1,4 @@
-/* Device faults, printed as they come and counted for the summary. SPDX-License-Identifier: MIT */
+/* Device faults, printed as they occur and counted for the summary. SPDX-License-Identifier: MIT */
 #ifndef KNURL_TOOL_FAULTS_H
 #define KNURL_TOOL_FAULTS_H
 
@@ -10,16 +10,16 @@
 
 typedef struct faults {
     uint64_t counts[FAULT_CODES]; /* by code */
-    int64_t start_ns;             /* of the run, on the clock that events bear */
+    int64_t start_ns;             /* of the run, on the clock of the events */
 } faults;
 
 void faults_start(faults *f);
 
 /* Prints a line on stderr for each event since the last call; overruns are only in the summary. simulated: s, the time
- * to print in a run that is not in real time, or below 0: each event's own. */
+ * to print in a run that is not in real time; negative: print each event's time. */
 void faults_show(faults *f, knurl_device *device, double simulated);
 
-/* "faults": {"lost": 1, ...}: those that came. */
+/* "faults": {"lost": 1, ...}: those that occurred. */
 void faults_print(const faults *f, json_writer *json);
 
 #endif

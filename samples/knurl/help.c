@@ -20,7 +20,7 @@ typedef struct help_option {
 
 typedef struct help_command {
     const char *name;
-    const char *arguments; /* that are not options */
+    const char *arguments; /* positional */
     const char *text;
     help_option options[OPTIONS_MAX]; /* ended by a null name */
     const char *details;
@@ -30,7 +30,7 @@ typedef struct help_command {
 #define STUDIES                                                                                                        \
     "signals, coverage, temporal, device, gratings, preferences, tradeoff, velocity, tracking, even, half_cycles,\n"   \
     "transitions, smooth, failures, stability"
-#define METHODS "METHOD" /* stands for the names of the library's table */
+#define METHODS "METHOD" /* replaced by the names of the library's table */
 #define BUDGET  {"--budget", "NAME=N,...", "limits of loading: surfaces, bytes, vertices, triangles, seconds"}
 #define PRETTY  {"--pretty", "", "JSON over several lines"}
 #define FULL    {"--full-model", "", "without reductions: flat meshes stay meshes, every tick tests all surfaces"}
@@ -138,7 +138,7 @@ static const char exit_codes[] =
     "4 a simulated run that touched nothing or hardly moved (its output is still written), 128 + N ended by\n"
     "signal N (130: Ctrl-C; nothing is written then).\n";
 
-/* An option's argument, or its values between bars. */
+/* An option's argument, or its values with bars in between. */
 static const char *argument_of(const help_option *o) {
     static char methods[256];
     if (strcmp(o->argument, METHODS) != 0) {
@@ -239,7 +239,8 @@ static void print_names(const help_command *only) {
     }
 }
 
-/* What an option takes, or what a command takes (null), with spaces between; false if that is a file or a number. */
+/* Prints the values of an option, or of a command (option null), with spaces in between; false if it takes a file or a
+ * number. */
 static int print_values(const help_command *c, const help_option *o) {
     const char *values = o                                   ? argument_of(o)
                          : strcmp(c->name, "study") == 0     ? STUDIES
@@ -264,7 +265,7 @@ static void bash_values(const help_command *c, const help_option *o) {
     fputs("' ;;\n", stdout);
 }
 
-/* bash and zsh, which understands bash's after bashcompinit. Without words, bash completes files. */
+/* For bash, and zsh through bashcompinit. Without words, bash completes files. */
 static void complete_bash(void) {
     fputs("_knurl() {\n  local word=${COMP_WORDS[COMP_CWORD]} last=${COMP_WORDS[COMP_CWORD-1]} words=\n"
           "  [ \"$last\" != = ] || last=${COMP_WORDS[COMP_CWORD-2]}\n" /* --option=value is three words */

@@ -2,10 +2,10 @@
 #ifndef KNURL_HELP_H
 #define KNURL_HELP_H
 
-/* Prints the overview (null) or a command's help. Returns 0, or 1 where there is no such command. */
+/* Prints the overview (null) or a command's help. Returns 0, or 1 if there is no such command. */
 int help_print(const char *command);
 
-/* Prints the keys of the fake device's URI, a line each. */
+/* Prints the keys of the fake device's URI, one line each. */
 void help_print_fake_keys(void);
 
 /* Prints a man page (roff). */
@@ -14,7 +14,7 @@ void help_print_man(void);
 /* Prints a completion script for bash, zsh or fish. Returns 0, or 1 for another shell. */
 int help_print_completion(const char *shell);
 
-/* The command that was likely meant, or null. */
+/* The command nearest to a mistyped word, or null. */
 const char *help_nearest_command(const char *word);
 
 #endif

@@ -1,4 +1,4 @@
-/* Loading a glTF file: --budget, and how far it is, on a terminal. SPDX-License-Identifier: MIT */
+/* Loading a glTF file: --budget, and progress on a terminal. SPDX-License-Identifier: MIT */
 #include "tool.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@
 
 enum { SURFACES, BYTES, VERTICES, TRIANGLES, SECONDS, LIMITS };
 
-/* One NAME=N. 0 where it is none. */
+/* Parses one NAME=N. 0 if it is invalid. */
 static int read_limit(const char *pair, size_t length, double limits[LIMITS]) {
     static const char *const names[LIMITS] = {"surfaces=", "bytes=", "vertices=", "triangles=", "seconds="};
     for (int i = 0; i < LIMITS; i++) {
@@ -48,7 +48,7 @@ int tool_parse_budget(const char *text, knurl_gltf_options *budget) {
 }
 
 typedef struct progress {
-    double next; /* s: when a line is due */
+    double next; /* s: time of the next line */
 } progress;
 
 static double now(void) {
@@ -74,7 +74,7 @@ static void tell_file(void *user, const char *path) {
 knurl_result tool_load(knurl_scene *scene, const char *path, const knurl_gltf_options *budget, uint32_t *skipped) {
     knurl_gltf_options options = *budget;
     knurl_gltf_report report;
-    progress p = {now() + 0.5}; /* what is done by then needs no line */
+    progress p = {now() + 0.5}; /* shorter loads need no line */
     knurl_gltf_report_init(&report, sizeof report);
     options.file_read = tell_file;
     options.user = &p;

@@ -9,7 +9,7 @@
 #include <errno.h>
 #include <string.h>
 
-/* The studies, and what analyses signals as they do, are a program of their own: it links a Fourier transform. */
+/* The studies and the analysis of signals are a separate program, because they link a Fourier transform. */
 static int run_study_program(int argc, char **argv) {
     char path[4096];
     (void)argc;
@@ -17,7 +17,7 @@ static int run_study_program(int argc, char **argv) {
     if (code >= 0) {
         return code;
     }
-    if (errno == ENOENT) { /* as after ./run demo */
+    if (errno == ENOENT) { /* for example after ./run demo */
         return tool_error(TOOL_FAILURE,
                           "%s: the program knurl_study, which does this, was not built: expected %s; install "
                           "libkissfft-dev and build again, or use ./run test",
@@ -34,7 +34,7 @@ static const struct {
                 {"metrics", run_study_program}, {"scan", cmd_scan},       {"study", run_study_program},
                 {"bench", cmd_bench},           {"devices", cmd_devices}, {"calibrate", cmd_calibrate}};
 
-/* The command whose help is asked for: "" for the overview, null for none. */
+/* The command whose help is requested; "": the overview; null: no help requested. */
 static const char *help_asked(int argc, char **argv) {
     if (strcmp(argv[1], "help") == 0) {
         return argc > 2 ? argv[2] : "";
@@ -77,7 +77,7 @@ static int show_man(const char *argument) {
     return TOOL_OK;
 }
 
-/* What the tool says of itself. most: arguments, with the program and its own name. */
+/* Commands that print information about the tool. most: maximum of argc. */
 static const struct {
     const char *name;
     int (*show)(const char *argument);

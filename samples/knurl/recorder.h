@@ -16,13 +16,13 @@ typedef struct recorder {
     double rate;
 } recorder;
 
-/* Opens the file and writes the header. TOOL_OK, or TOOL_FAILURE having said why. */
+/* Opens the file and writes the header. TOOL_OK, or TOOL_FAILURE after printing the reason. */
 int recorder_open(recorder *r, const char *path, const knurl_scene *scene, double rate);
 
-/* Writes what has come into the ring. */
+/* Writes the new ticks in the ring. */
 void recorder_drain(recorder *r);
 
-/* Drains and keeps the file, or takes it away. TOOL_OK, or TOOL_FAILURE having said why. */
+/* Drains and keeps the file, or removes it. TOOL_OK, or TOOL_FAILURE after printing the reason. */
 int recorder_close(recorder *r, int keep);
 
 #endif

@@ -15,19 +15,19 @@ static void put(FILE *f, uint32_t value, int bytes) {
     }
 }
 
-/* The lengths are those of a stream of unknown length, until they are known. */
+/* Until the lengths are known, they are those of a stream of unknown length. */
 static void write_header(FILE *f, uint64_t frames) {
     const uint32_t bytes = frames < LONGEST / 2 ? (uint32_t)frames * 2 : LONGEST;
     fputs("RIFF", f);
     put(f, bytes + HEADER - 8, 4);
     fputs("WAVEfmt ", f);
-    put(f, 16, 4); /* of this part */
+    put(f, 16, 4); /* size of this chunk */
     put(f, 1, 2);  /* integers */
     put(f, 1, 2);  /* channels */
     put(f, SAMPLE_RATE, 4);
     put(f, SAMPLE_RATE * 2, 4); /* bytes per second */
-    put(f, 2, 2);               /* bytes a frame */
-    put(f, 16, 2);              /* bits a sample */
+    put(f, 2, 2);               /* bytes per frame */
+    put(f, 16, 2);              /* bits per sample */
     fputs("data", f);
     put(f, bytes, 4);
 }
@@ -57,7 +57,7 @@ void sound_take(sound *s, const knurl_tick_output *output) {
     __atomic_store_n(&s->ticks, s->ticks + 1, __ATOMIC_RELEASE);
 }
 
-/* Up to the beginning of a tick. */
+/* Writes up to the start of a tick. */
 static void write_until(sound *s, double tick) {
     const uint64_t until = (uint64_t)(fmax(0.0, tick) * SAMPLE_RATE / s->rate);
     while (s->frames < until) {
@@ -71,7 +71,7 @@ static void write_until(sound *s, double tick) {
     }
 }
 
-void sound_drain(sound *s) { /* a tick is played when the next one is there */
+void sound_drain(sound *s) { /* a tick is played once the next one has arrived */
     write_until(s, (double)__atomic_load_n(&s->ticks, __ATOMIC_ACQUIRE) - 1.0);
 }
 

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* How far a device position can go along +-direction before it leaves the workspace; negative outside. */
+/* The distance that a device position can move along +-direction inside the workspace; negative outside. */
 static double room(const knurl_device_info *device, const double from[3], const double direction[3]) {
     double reach = HUGE_VAL;
     for (int axis = 0; axis < 3; axis++) {
@@ -69,7 +69,7 @@ int stroke_lay(knurl_scene *scene, knurl_device *device, knurl_surface_id surfac
     return TOOL_OK;
 }
 
-/* m: no device reaches so far: a trace that spans more was likely written in mm. */
+/* m: larger than any workspace: a longer trace was probably written in mm. */
 #define TRACE_SPAN_MAX 2.0
 
 static void warn_of_millimetres(const char *path, const tool_table *table) {

@@ -1,4 +1,4 @@
-/* Ticks on their way from the haptic thread to one other thread. SPDX-License-Identifier: MIT */
+/* Passes ticks from the haptic thread to one other thread. SPDX-License-Identifier: MIT */
 #ifndef KNURL_TOOL_TICK_RING_H
 #define KNURL_TOOL_TICK_RING_H
 
@@ -11,17 +11,17 @@
 typedef struct tick_ring {
     knurl_tick_output *rows;
     uint64_t written; /* by the haptic thread */
-    uint64_t read;    /* by the other */
-    uint64_t lost;    /* ticks for which there was no room */
+    uint64_t read;    /* by the other thread */
+    uint64_t lost;    /* ticks dropped because the ring was full */
 } tick_ring;
 
-/* 0, or 1 where there is no memory. */
+/* 0, or 1 if memory runs out. */
 int tick_ring_create(tick_ring *ring);
 
-/* Adds a tick, or counts it as lost where the ring is full; never waits. [haptic thread] */
+/* Adds a tick, or counts it as lost if the ring is full; never waits. [haptic thread] */
 void tick_ring_put(tick_ring *ring, const knurl_tick_output *output);
 
-/* The oldest tick, or null; the ring's until tick_ring_drop(). [the other thread] */
+/* The oldest tick, or null; valid until tick_ring_drop(). [the other thread] */
 const knurl_tick_output *tick_ring_first(const tick_ring *ring);
 void tick_ring_drop(tick_ring *ring);
 

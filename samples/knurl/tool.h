@@ -17,15 +17,16 @@
 
 /* --- output (output.c) --- */
 
-/* A line on stderr for each limit of HIP 0's device that a surface exceeds. Returns how many. */
+/* A line on stderr for each limit of HIP 0's device that a surface exceeds. Returns their number. */
 uint32_t tool_warn(const knurl_scene *scene);
 
 /* --- loading (load.c) --- */
 
-/* --budget: "surfaces=1000,seconds=0.5"; null: not given. TOOL_OK, or TOOL_USAGE having said why. */
+/* --budget: "surfaces=1000,seconds=0.5"; null: not given. TOOL_OK, or TOOL_USAGE after printing the reason. */
 int tool_parse_budget(const char *text, knurl_gltf_options *budget);
 
-/* knurl_gltf_load_file(). What was read is protected from being written over; a terminal is shown how far it is. */
+/* knurl_gltf_load_file(). Protects the files that were read from being overwritten, and shows progress on a terminal.
+ */
 knurl_result tool_load(knurl_scene *scene, const char *path, const knurl_gltf_options *budget, uint32_t *skipped);
 
 /* --- CSV input (csv_in.c) --- */
@@ -36,8 +37,8 @@ typedef struct tool_table {
     uint32_t columns;
 } tool_table;
 
-/* Reads a CSV of finite numbers whose header holds all of `names` (count of them, in any order, others are passed
- * over). Returns TOOL_OK, or TOOL_FAILURE having said which line. */
+/* Reads a CSV of finite numbers whose header holds all of `names` (count of them, in any order, others are ignored).
+ * Returns TOOL_OK, or TOOL_FAILURE after printing the line of the error. */
 int tool_read_csv(const char *path, const char *const *names, uint32_t count, tool_table *table);
 
 /* 1 if the file's header line holds the name. */

@@ -3,8 +3,8 @@
 
 #include <math.h>
 
-#define JUDGED_S 1.0   /* a stroke takes a quarter of a second to come down */
-#define SOME_MM  0.005 /* m: who has moved no farther has not stroked anything */
+#define JUDGED_S 1.0   /* a stroke takes 0.25 s to reach the surface */
+#define SOME_MM  0.005 /* m: a shorter distance is not a stroke */
 
 void travel_add(travel *t, const knurl_tick_output *output) {
     const double *v = output->surface_velocity;

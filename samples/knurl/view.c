@@ -1,6 +1,6 @@
-/* One thread serves the page by HTTP and the ticks by WebSocket. The haptic thread's ticks come by a ring that drops
- * what it has no room for; this thread keeps the latest of them as rows, and each viewer has its own place among them,
- * so that a slow viewer misses rows and delays nobody. SPDX-License-Identifier: MIT */
+/* One thread serves the page by HTTP and the ticks by WebSocket. The haptic thread's ticks arrive through a ring that
+ * drops ticks if it is full; this thread keeps the last ones as rows, and each viewer has its own position in them, so
+ * that a slow viewer misses rows and does not delay the others. SPDX-License-Identifier: MIT */
 #include "view.h"
 
 #include "tick_ring.h"
@@ -20,10 +20,11 @@
 #define MESSAGE_ROWS 512
 #define TOKEN        32 /* hexadecimal digits: 128 bits */
 #define CONNECTIONS  32
-#define STRANGERS    8 /* connections that have not shown the token yet */
+#define STRANGERS    8 /* connections that have not sent the token yet */
 #define PATIENCE_S   5 /* for a request's headers */
 
-/* With every answer. The page asks nothing of other hosts, whatever the scene's file names; its images are the file's.
+/* Sent with every response. The page loads nothing from other hosts, even if the scene's file names them; its images
+ * come from the file.
  */
 #define SECURITY                                                                                                        \
     "cache-control: no-store\r\nreferrer-policy: no-referrer\r\nx-content-type-options: nosniff\r\n"                    \
@@ -40,11 +41,11 @@ struct view {
     size_t hello_size;
     struct lws_context *context;
     lws_sorted_usec_list_t timer;
-    lws_usec_t due; /* when the timer runs out */
+    lws_usec_t due; /* expiry of the timer */
     pthread_t thread;
     int stop; /* atomic */
     char token[TOKEN + 1], url[96], hosts[2][32], security[640];
-    struct lws *strangers[STRANGERS]; /* the longest here first */
+    struct lws *strangers[STRANGERS]; /* the oldest first */
     int stranger_count;
     uint64_t row_count; /* so far */
     double rows[KEPT_ROWS][VIEW_ROW];
@@ -94,7 +95,7 @@ static int header_is(struct lws *wsi, enum lws_token_indexes header, const char 
     char found[64];
     char expected[64];
     if (lws_hdr_copy(wsi, found, (int)sizeof found, header) <= 0) {
-        return 0; /* absent, or longer than either */
+        return 0; /* missing, or longer than either */
     }
     for (int i = 0; i < 2; i++) {
         (void)snprintf(expected, sizeof expected, "%s%s", scheme, v->hosts[i]);
@@ -115,8 +116,8 @@ static void forget(view *v, const struct lws *wsi) {
     v->stranger_count = kept;
 }
 
-/* A connection is one of few until it has shown the token: the longest here has to go, so that requests that never end
- * keep nobody out. */
+/* The number of connections without the token is limited: the oldest is closed, so that requests that never end cannot
+ * lock others out. */
 static void admit(view *v, struct lws *wsi) {
     if (v->stranger_count == STRANGERS) {
         lws_set_timeout(v->strangers[0], PENDING_TIMEOUT_AWAITING_SERVER_RESPONSE, LWS_TO_KILL_ASYNC);
@@ -125,8 +126,8 @@ static void admit(view *v, struct lws *wsi) {
     v->strangers[v->stranger_count++] = wsi;
 }
 
-/* What follows "/TOKEN/" in a path, or null. A page of another site may find the port, and may be of the same origin by
- * a name that resolves to 127.0.0.1; it does not have the token, and its Host header names the other site. */
+/* The part of a path after "/TOKEN/", or null. A page of another site may find the port, and may have the same origin
+ * through a name that resolves to 127.0.0.1; but it lacks the token, and its Host header names the other site. */
 static const char *asked_for(struct lws *wsi, const view *v, const char *path) {
     const int knows =
         strlen(path) > TOKEN + 1 && path[TOKEN + 1] == '/' && lws_timingsafe_bcmp(path + 1, v->token, TOKEN) == 0;
@@ -219,7 +220,7 @@ static int send_rows(struct lws *wsi, view *v, viewer *to) {
         to->greeted = 1;
         return lws_write(wsi, (unsigned char *)v->hello + LWS_PRE, v->hello_size, LWS_WRITE_TEXT) < 0 ? -1 : 0;
     }
-    if (v->row_count - to->next > KEPT_ROWS) { /* it was slow */
+    if (v->row_count - to->next > KEPT_ROWS) { /* the viewer was too slow */
         to->next = v->row_count - KEPT_ROWS;
     }
     const uint64_t waiting = v->row_count - to->next;
@@ -258,7 +259,7 @@ static int on_live(struct lws *wsi, enum lws_callback_reasons reason, void *user
     }
 }
 
-/* The last number is how much goes to the kernel at once; by default it is the third's 256 bytes. */
+/* The last number is the size of a write to the kernel; the default would be the third number, 256 bytes. */
 static const struct lws_protocols protocols[] = {
     {"http", on_http, 0, 0, 0, NULL, 0},
     {"knurl", on_live, sizeof(viewer), 256, 0, NULL, MESSAGE_ROWS * VIEW_ROW * sizeof(double)},
@@ -284,7 +285,7 @@ static void collect(lws_sorted_usec_list_t *timer) {
     start_timer(v);
 }
 
-/* lws_service() waits whole milliseconds, and for the rest of one it polls again and again. */
+/* lws_service() waits for whole milliseconds and would poll repeatedly for the rest of one. */
 static void wait_below_a_millisecond(const view *v) {
     const lws_usec_t left = v->due - lws_now_usecs();
     if (left > 0 && left < LWS_US_PER_MS) {
@@ -301,7 +302,7 @@ static void *serve(void *user) {
     return NULL;
 }
 
-/* --- begin and end --- */
+/* --- start and end --- */
 
 static void describe_surface(json_writer *json, const char *name, const knurl_material_desc *m) {
     const double feel[6] = {
@@ -345,8 +346,8 @@ static int make_hello(view *v) {
     return 0;
 }
 
-/* lws_create_context() has the process ignore SIGPIPE for good, which is the caller's to decide. Its sockets do not
- * raise it: MSG_NOSIGNAL. */
+/* lws_create_context() makes the process ignore SIGPIPE, so this restores it. The sockets do not raise it:
+ * MSG_NOSIGNAL. */
 static struct lws_context *make_context(const struct lws_context_creation_info *info) {
     struct sigaction was;
     const int is_known = sigaction(SIGPIPE, NULL, &was) == 0;
@@ -361,7 +362,7 @@ static int listen_on_loopback(view *v) {
     struct lws_context_creation_info info;
     memset(&info, 0, sizeof info);
     info.iface = "127.0.0.1";
-    info.port = 0; /* any that is free */
+    info.port = 0; /* any free port */
     info.protocols = protocols;
     info.options = LWS_SERVER_OPTION_DISABLE_IPV6;
     info.fd_limit_per_thread = CONNECTIONS;

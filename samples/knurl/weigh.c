@@ -49,7 +49,7 @@ static void hold(uint64_t tick, const knurl_device_sample *sample, double force[
         w->lag += axis == 1 && fabs(INTEGRAL * w->lag) < MOST ? miss / RATE : 0.0;
         force[axis] = clamp(STIFFNESS * miss - DAMPING * w->speed[axis] + (axis == 1 ? INTEGRAL * w->lag : 0.0));
     }
-    if (t >= WEIGH_SECONDS - 2.0 * TURN) { /* by then it has settled */
+    if (t >= WEIGH_SECONDS - 2.0 * TURN) { /* it has settled by then */
         w->sum += force[1];
         w->count++;
     }

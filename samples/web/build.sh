@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
-# Puts the page together in OUT, a folder that any web server can serve: WebAssembly, bundled scripts, demo assets.
+# Assembles the page in OUT, a folder that any web server can serve: WebAssembly, bundled scripts, demo assets.
 # usage: build.sh WORK OUT
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 work=$1 out=$2
 mkdir -p "$work/page" "$out/assets"
 cp "$here"/{package.json,package-lock.json,.npmrc} "$work/page/"
-if ! cmp -s "$here/package-lock.json" "$work/page/installed.json"; then # what the lock file names, held against its hashes
+if ! cmp -s "$here/package-lock.json" "$work/page/installed.json"; then # the lock file's versions, checked by hash
     echo 'fetching three.js and esbuild'
-    (cd "$work/page" && npm ci --ignore-scripts --no-progress) || exit 3 # as ./run has it: what is missing cannot be had
+    (cd "$work/page" && npm ci --ignore-scripts --no-progress) || exit 3 # 3: a dependency is not available
     cp "$here/package-lock.json" "$work/page/installed.json"
 fi
 "$here/wasm.sh" "$work"
@@ -16,5 +16,5 @@ cp "$here"/*.js "$work/knurl.mjs" "$work/page/"
 "$work/page/node_modules/@esbuild/linux-x64/bin/esbuild" "$work"/page/{main,view,worker}.js --bundle --minify --format=esm \
     --external:./view.js --legal-comments=eof --outdir="$out" --log-level=warning
 cp "$here"/{index.html,start.js,style.css} "$work/knurl.wasm" "$out/"
-cat "$here"/../../{LICENSE,bindings/godot/addons/knurl/THIRD_PARTY.md} >"$out/licences.txt" # of what knurl.wasm holds
+cat "$here"/../../{LICENSE,bindings/godot/addons/knurl/THIRD_PARTY.md} >"$out/licences.txt" # of the code in knurl.wasm
 cp "$here"/../../assets/{plate_1d,grid_2d,knurled_handle}.glb "$out/assets/"

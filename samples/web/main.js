@@ -1,4 +1,4 @@
-// The page: files, what ticks bring, and what is drawn of it. SPDX-License-Identifier: MIT
+// The page: files, incoming ticks, and drawing. SPDX-License-Identifier: MIT
 import { $, save, scene, setSurfaces, surface, tell } from "./page.js";
 import { Pointer } from "./pointer.js";
 import { Recording } from "./recording.js";
@@ -16,12 +16,12 @@ const linked = new URLSearchParams(location.hash.slice(1));
 const history = new History();
 const sound = new Sound();
 const ticks = { latest: null, crossed: 0, played: 0, missed: 0, cost: 0 };
-let simulation = null; // or null: what is shown is a run of the tool
+let simulation = null; // or null: the page shows a run of the tool
 let pointer = null;
-let rate = 1000; // of the source
+let rate = 1000; // Hz, of the source
 let panelsDrawn = 0; // ms
 
-// --- what ticks bring ---
+// --- incoming ticks ---
 
 function take(rows) {
   for (let at = 0; at < rows.length; at += ROW) {
@@ -47,7 +47,7 @@ function forget(shownRate) {
   Object.assign(ticks, { latest: null, crossed: 0, played: 0, missed: 0 });
 }
 
-// The source ticks at another rate.
+// The source's rate has changed.
 function setRate(hz) {
   rate = hz;
   forget(hz);
@@ -59,7 +59,7 @@ const recording = new Recording({ show: take, begin: forget, end: () => forget(r
 
 // three.js is most of the page: it is loaded while WebAssembly and the model are.
 const viewModule = import("./view.js");
-viewModule.catch(() => {}); // draw3d() tells
+viewModule.catch(() => {}); // draw3d() reports it
 
 const undrawn = () => (scene.view ? "" : " with the arrow keys; there is no WebGL in this browser, so that it is not drawn");
 
@@ -67,14 +67,14 @@ function makeView(View) {
   try {
     return new View($("view"));
   } catch {
-    return null; // undrawn() tells
+    return null; // undrawn() reports it
   }
 }
 
 async function draw3d(bytes, name) {
   try {
     const { View, read } = await viewModule;
-    const reading = read(bytes); // its images are decoded while WebGL starts
+    const reading = read(bytes); // decodes its images while WebGL starts
     if (scene.view === undefined) {
       scene.view = makeView(View);
     }
@@ -87,7 +87,7 @@ async function draw3d(bytes, name) {
   }
 }
 
-// isOurs: it will load, and is drawn meanwhile
+// isOurs: it is known to load, so it is drawn meanwhile
 async function open(bytes, name, isOurs = false) {
   const drawing = isOurs ? draw3d(bytes, name) : null;
   const { error, surfaces } = await simulation.ask("load", { bytes, name });
@@ -96,7 +96,7 @@ async function open(bytes, name, isOurs = false) {
     Object.assign(scene, { bytes, name });
     $("node").replaceChildren(...nodes.map((node) => new Option(node.name, node.index)));
   }
-  if (error) { // what was there goes on
+  if (error) { // keep the present scene
     tell(/nothing is tagged/.test(error) ? `${error}; a mesh of it can be tagged below` : error, true);
     return;
   }
@@ -147,9 +147,9 @@ async function writeTag() {
   }
 }
 
-// --- what is drawn ---
+// --- drawing ---
 
-// Without "-0.00".
+// Avoids "-0.00".
 const fixed = (value, digits) => value.toFixed(digits).replace(/^-(?=[0.]*$)/, "");
 
 function numbers() {
@@ -219,7 +219,7 @@ function ready() {
   document.documentElement.dataset.ready = "1";
 }
 
-// Shows a run of the tool, of which nothing can be set here.
+// Shows a run of the tool, whose settings cannot be changed here.
 function show(run) {
   setRate(run.rate_hz);
   setSurfaces(run.surfaces);

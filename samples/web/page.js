@@ -1,4 +1,4 @@
-// What the page's parts share. SPDX-License-Identifier: MIT
+// Shared by the parts of the page. SPDX-License-Identifier: MIT
 export const $ = (id) => document.getElementById(id);
 
 export function tell(text, isError = false) {
@@ -6,7 +6,8 @@ export function tell(text, isError = false) {
   $("status").classList.toggle("error", isError);
 }
 
-// The scene: its 3D view (undefined before it is tried, null without WebGL), surfaces {name, feel, ...}, and the .glb that
+// The scene: its 3D view (undefined before it is tried, null without WebGL), surfaces {name, feel, ...}, and the .glb
+// that
 // it came from.
 export const scene = { view: undefined, surfaces: [], bytes: null, name: "" };
 

@@ -1,4 +1,4 @@
-// The way from mouse, finger, pen and keyboard to where the HIP is to be. SPDX-License-Identifier: MIT
+// Converts mouse, finger, pen and keyboard input to the HIP's target. SPDX-License-Identifier: MIT
 import { $, scene, surface } from "./page.js";
 
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
@@ -6,7 +6,7 @@ const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowD
 export class Pointer {
   constructor(simulation) {
     this.simulation = simulation;
-    this.under = null; // what is stroked: {point, normal}
+    this.under = null; // the stroked point: {point, normal}
     const canvas = $("view");
     canvas.addEventListener("pointerdown", (event) => {
       if (scene.view && event.isPrimary && event.button === 0) {

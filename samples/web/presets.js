@@ -1,5 +1,5 @@
-// Failures from the catalogue (samples/study/failures.md), each with a stroke that shows it: half (m) to either side of the
-// middle, at a speed (m/s) that is steady, or with `eased` the greatest of a sine. SPDX-License-Identifier: MIT
+// Failures from the catalogue (samples/study/failures.md), each with a stroke that shows it: `half` m to each side of
+// the middle, at a steady speed (m/s), or with `eased` the maximum of a sine. SPDX-License-Identifier: MIT
 export const PRESETS = [
   {
     title: "S1 pushes",
@@ -50,6 +50,6 @@ export const PRESETS = [
     settings: { method: 2, resolution: "0.000055" }, half: 0.01, speed: 0.001,
   },
 ];
-// What each begins from: the bar of 1 mm ridges.
+// Defaults of each: the bar with 1 mm ridges.
 PRESETS.common = { model: "plate_1d.glb", surface: 0, fsx: 1000, fsy: 0, amplitude: 0.2, stiffness: 400, friction: 0, depth: 1,
   rate: 1000, resolution: "0" };

@@ -1,4 +1,4 @@
-// Ticks are recorded, replayed, and written to and read from CSV files. SPDX-License-Identifier: MIT
+// Records and replays ticks, and reads and writes them as CSV files. SPDX-License-Identifier: MIT
 import { $, save, scene, tell } from "./page.js";
 import { AT, ROW, fromCsv, toCsv } from "./rows.js";
 import { replay } from "./sources.js";
@@ -6,12 +6,12 @@ import { replay } from "./sources.js";
 const MOST_ROWS = 300000; // five minutes at 1 kHz
 
 export class Recording {
-  // show(rows) draws; begin(rate) and end() forget what was drawn.
+  // show(rows) draws; begin(rate) and end() clear the drawing.
   constructor({ show, begin, end }) {
     Object.assign(this, { show, begin, end });
     this.parts = [];
     this.count = 0;
-    this.stop = null; // ends what is replayed
+    this.stop = null; // ends the replay
     $("record").addEventListener("click", () => this.switch());
     $("replay").addEventListener("click", () => (this.stop ? this.endReplay() : this.play()));
     $("save").addEventListener("click", () => save(toCsv(this.rows(), scene.surfaces), "knurl.csv"));

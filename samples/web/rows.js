@@ -1,4 +1,4 @@
-// A tick is a row of numbers, as web.c and `knurl run --view` send it. SPDX-License-Identifier: MIT
+// A tick as a row of numbers, sent by web.c and `knurl run --view`. SPDX-License-Identifier: MIT
 export const ROW = 23;
 export const AT = { force: 0, hip: 3, proxy: 6, depth: 9, height: 10, frequency: 11, cycles: 12, contact: 14, surface: 15,
   time: 16, velocity: 17, spatial: 19, normal: 20 };
@@ -6,13 +6,13 @@ export const AT = { force: 0, hip: 3, proxy: 6, depth: 9, height: 10, frequency:
 export const vector = (row, at) => row.subarray(at, at + 3);
 export const length = (v) => Math.hypot(v[0], v[1], v[2]);
 
-// --- as CSV: the columns of `knurl run --out`, and those that a picture needs besides ---
+// --- CSV: the columns of `knurl run --out`, and further ones for drawing ---
 
 const COLUMNS = [["t", 16], ["x", 3], ["y", 4], ["z", 5], ["vx", 17], ["vy", 18], ["surface"], ["depth", 9], ["fs", 19],
   ["ft", 11], ["height", 10], ["fx", 0], ["fy", 1], ["fz", 2], ["px", 6], ["py", 7], ["pz", 8], ["nx", 20], ["ny", 21],
   ["nz", 22], ["cycles_x", 12], ["cycles_y", 13]];
 
-// As the tool has it: without its first apostrophe a cell is the name; `none` is no contact.
+// As in the tool: without its first apostrophe a cell is the name; `none` means no contact.
 function cell(name) {
   const text = /^\s*['=+\-@＝＋－＠]|^none$/.test(name) ? `'${name}` : name;
   return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
@@ -33,8 +33,8 @@ function cells(line) {
     quoted === undefined ? plain : quoted.replaceAll('""', '"'));
 }
 
-// Rows from such a file. Without the columns beyond the tool's own, the surface is taken to lie along the force. Throws a
-// sentence.
+// Rows from such a file. Without the columns beyond the tool's own, the surface is taken to lie along the force. Throws
+// an error message.
 export function fromCsv(text, surfaces) {
   const lines = text.trim().split(/\r?\n/);
   const header = cells(lines[0]);

@@ -37,7 +37,7 @@ export class History {
     return this.rows.slice(-count);
   }
 
-  // Over the latest seconds.
+  // The mean over the last `seconds`.
   mean(key, seconds) {
     const rows = this.latest(Math.max(1, Math.round(seconds * this.rate)));
     return rows.length > 0 ? rows.reduce((sum, row) => sum + row[key], 0) / rows.length : 0;
@@ -71,7 +71,7 @@ export function drawScope(canvas, history) {
 const WINDOW = 512;
 const COSINES = Float64Array.from({ length: WINDOW }, (_, i) => Math.cos((2 * Math.PI * i) / WINDOW));
 
-// Amplitudes at multiples of rate/512, by the definition: 256 lines at most, ten times a second.
+// Amplitudes at multiples of rate/512 by a direct sum: at most 256 lines, ten times per second.
 function spectrum(values, rate) {
   const mean = values.reduce((sum, value) => sum + value, 0) / WINDOW;
   const weighted = Float64Array.from(values, (value, i) => (value - mean) * (1 - COSINES[i]));
@@ -106,7 +106,7 @@ export function drawSpectrum(canvas, history) {
   });
 }
 
-// Eq. 11 round the cursor, true to scale; x to the right, y up.
+// Draws Eq. 11 around the cursor, to scale; x to the right, y up.
 export function drawLens(canvas, cycles, feel) {
   const { context, colour, width, height } = prepare(canvas);
   const [light, dark] = [colour("--paper"), colour("--accent")];
@@ -126,7 +126,7 @@ export function drawLens(canvas, cycles, feel) {
   context.fill();
 }
 
-// What pushes, as a needle: to the right upwards, upright none, flat as much as the amplitude gives.
+// Draws the mean push as a needle: upright: no push; flat: as much as the amplitude.
 export function drawNeedle(canvas, share) {
   const { context, colour, width, height } = prepare(canvas);
   const turn = (Math.PI / 2) * Math.max(-1, Math.min(1, share));

@@ -1,4 +1,4 @@
-// How the surface feels and what the device is; links and the failures' catalogue set them. SPDX-License-Identifier: MIT
+// Settings of surface and device; links and the failures' catalogue set them. SPDX-License-Identifier: MIT
 import { PRESETS } from "./presets.js";
 import { $, scene, surface, tell } from "./page.js";
 
@@ -7,7 +7,7 @@ const SLIDERS = [["fsx", 0, 1], ["fsy", 1, 1], ["amplitude", 2, 1000], ["stiffne
 const FEEL = ["method", ...SLIDERS.map(([id]) => id)];
 const SHARED = ["model", "surface", ...FEEL, "depth", "exaggeration", "rate", "resolution"];
 
-// The tag of a surface, as a glTF material's extras hold it.
+// The tag of a surface for a glTF material's extras.
 export function tag(feel) {
   return { version: 1, spatial_frequency: [feel[0], feel[1]], amplitude: feel[2], stiffness: feel[3], friction: feel[4],
     method: METHODS[feel[5]] };
@@ -17,7 +17,7 @@ export const shownFeel = () =>
   [...SLIDERS.map(([id, , scale]) => Number($(id).value) / scale), Number($("method").value)];
 
 function set(id, value) {
-  $(id).value = value; // what it does not know it refuses
+  $(id).value = value; // the control ignores unknown values
   if ($(id).selectedIndex === -1) {
     $(id).selectedIndex = 0;
   }
@@ -47,7 +47,7 @@ export class Settings {
   constructor(simulation, openDemo, clear) {
     this.simulation = simulation;
     this.openDemo = openDemo;
-    this.clear = clear; // with the new update rate: what was drawn is no longer so
+    this.clear = clear; // with the new update rate: clears the drawing
     $("preset").append(...PRESETS.map(({ title }, index) => new Option(title, index)));
     $("preset").addEventListener("change", () => this.usePreset(PRESETS[$("preset").value]));
     $("surface").addEventListener("change", showFeel);
@@ -101,7 +101,7 @@ export class Settings {
     }
   }
 
-  // A failure as the catalogue has it: settings, and a stroke that shows it.
+  // Applies a failure of the catalogue: settings, and a stroke that shows it.
   async usePreset(preset) {
     $("preset-text").textContent = preset?.text ?? "";
     this.simulation.travel(null);

@@ -1,5 +1,5 @@
-// The sound: samples from the worker go into an AudioWorklet's queue; no memory is shared, so that any web server will
-// do. SPDX-License-Identifier: MIT
+// The sound: the worker's samples go into an AudioWorklet's queue. It shares no memory, so any web server will do.
+// SPDX-License-Identifier: MIT
 const WORKLET = `
 registerProcessor("knurl", class extends AudioWorkletProcessor {
   constructor() {
@@ -32,7 +32,7 @@ registerProcessor("knurl", class extends AudioWorkletProcessor {
 });`;
 
 export class Sound {
-  // Must come from a click: browsers allow no sound before. Throws where there is none.
+  // Call it from a click: browsers allow no sound before. Throws if there is no sound.
   async start() {
     if (!this.context) {
       await this.attach(new AudioContext({ sampleRate: 48000 }));

@@ -1,19 +1,19 @@
-// Where ticks come from: the simulation in a worker, a run of the tool on this computer, or a recording.
+// Sources of ticks: the simulation in a worker, a run of the tool on this computer, or a recording.
 // SPDX-License-Identifier: MIT
 import { AT, ROW } from "./rows.js";
 
-// While the worker starts, which takes as long. answer: what fetch() returned
+// Runs while the worker starts, which takes as long. answer: the result of fetch()
 async function compile(answer) {
   try {
     return await WebAssembly.compileStreaming(answer);
-  } catch { // servers that do not know .wasm
+  } catch { // servers without the MIME type of .wasm
     return WebAssembly.compile(await (await fetch((await answer).url)).arrayBuffer());
   }
 }
 
 export class Simulation {
-  // Takes what index.html has started: a worker, and the fetch of its WebAssembly. Calls ticks({rows, samples, cost})
-  // some 80 times a second.
+  // Takes the worker and the fetch of WebAssembly that index.html started. Calls ticks({rows, samples, cost})
+  // some 80 times per second.
   constructor({ worker, wasm }, { ticks, failed }) {
     this.waiting = new Map();
     this.asked = 0;
@@ -43,18 +43,18 @@ export class Simulation {
     });
   }
 
-  // The HIP is to be there; null: nowhere.
+  // Sets the HIP's target; null: no HIP.
   move(target) {
     this.worker.postMessage({ kind: "move", target });
   }
 
-  // The HIP strokes by itself, to and fro along a line: {middle, along (m, a half way), speed, eased}.
+  // Makes the HIP stroke to and fro along a line: {middle, along (m, half its length), speed, eased}.
   travel(way) {
     this.worker.postMessage({ kind: "travel", way });
   }
 }
 
-// `knurl run --view` at the address that this page came from.
+// Connects to `knurl run --view` at this page's address.
 export function watch({ hello, rows, ended }) {
   const socket = new WebSocket(new URL("live", location.href).href.replace(/^http/, "ws"), "knurl");
   socket.binaryType = "arraybuffer";
@@ -62,7 +62,7 @@ export function watch({ hello, rows, ended }) {
   socket.onclose = ended;
 }
 
-// Gives a recording's rows at their own times. Returns what stops it.
+// Plays a recording's rows at their times. Returns a function that stops it.
 export function replay(recording, { rows, ended }) {
   const begin = performance.now();
   let sent = 0;

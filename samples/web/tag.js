@@ -1,8 +1,9 @@
-// Tags in a .glb: which nodes have a mesh, and a copy of the file in which one of them is tagged. SPDX-License-Identifier: MIT
+// Tags in a .glb: which nodes have a mesh, and a copy of the file in which one of them is tagged.
+// SPDX-License-Identifier: MIT
 const MAGIC = 0x46546c67; // "glTF"
 const JSON_CHUNK = 0x4e4f534a;
 
-// {json, rest: what follows the JSON chunk}, or null where the file is none of these.
+// {json, rest: the bytes after the JSON chunk}, or null if it is not a .glb file.
 function parse(buffer) {
   const view = new DataView(buffer);
   if (buffer.byteLength < 20 || view.getUint32(0, true) !== MAGIC || view.getUint32(16, true) !== JSON_CHUNK) {
@@ -17,7 +18,7 @@ function parse(buffer) {
   }
 }
 
-// [{name, index}] of the nodes with a mesh; as the library, names fall back on the mesh's.
+// [{name, index}] of the nodes with a mesh; nodes without a name get the mesh's, as in the library.
 export function nodesWithMesh(buffer) {
   const { json } = parse(buffer) || { json: {} };
   const nodes = Array.isArray(json?.nodes) ? json.nodes : [];
@@ -25,7 +26,7 @@ export function nodesWithMesh(buffer) {
     .filter(({ index }) => json.meshes?.[nodes[index]?.mesh]);
 }
 
-// A copy in which the node holds the tag, instead of what it held.
+// A copy in which the tag replaces the node's previous one.
 export function withTag(buffer, index, tag) {
   const { json, rest } = parse(buffer);
   const node = json.nodes[index];

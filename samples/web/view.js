@@ -1,4 +1,4 @@
-// The scene in 3D: the model, a camera that can be turned, the cursor, and where a pointer meets the surface.
+// The scene in 3D: the model, a camera that can be turned, the cursor, and the surface point under a pointer.
 // SPDX-License-Identifier: MIT
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
@@ -8,12 +8,12 @@ const UP = new THREE.Vector3(0, 1, 0);
 const CURSOR = 0.018; // of the model's size
 const HEAD = 0.05; // length of the needle's head, of the model's size
 
-// Without what metals would mirror: they would be black, and each of its shaders takes a software renderer 0.1 s.
+// Without reflections: metals would be black, and each of their shaders takes a software renderer 0.1 s.
 function matt({ color, map, vertexColors, flatShading, side, transparent, opacity, alphaTest }) {
   return new THREE.MeshLambertMaterial({ color, map, vertexColors, flatShading, side, transparent, opacity, alphaTest });
 }
 
-// The model in a .glb, and nothing from elsewhere: a stranger's file may name images at any host.
+// Reads the model in a .glb and loads no other files: an untrusted file may name images on any host.
 export async function read(bytes) {
   const manager = new THREE.LoadingManager().setURLModifier((url) => (/^(data|blob):/.test(url) ? url : "data:,"));
   const { scene } = await new GLTFLoader(manager).parseAsync(bytes, "");
@@ -38,7 +38,8 @@ export class View {
     const sun = new THREE.DirectionalLight(0xffffff, 2);
     sun.position.set(0.4, 1, 0.6);
     this.scene.add(new THREE.HemisphereLight(0xffffff, 0x667788, 1.6), sun);
-    // The same kind of material as the model's: each further kind takes a software renderer 0.05 s at the first touch.
+    // The same class of material as the model's: each further class takes a software renderer 0.05 s at the first
+    // touch.
     const orange = new THREE.MeshLambertMaterial({ color: 0xd9662b });
     this.cursor = new THREE.Mesh(new THREE.SphereGeometry(1, 24, 16), orange);
     this.shaft = new THREE.Mesh(new THREE.CylinderGeometry(0.004, 0.004, 1, 8).translate(0, 0.5, 0), orange);
@@ -48,7 +49,7 @@ export class View {
     this.scene.add(this.cursor, this.needle);
     this.ray = new THREE.Raycaster();
     this.model = null;
-    this.changed = true; // since it was drawn
+    this.changed = true; // since the last drawing
     this.controls.addEventListener("change", () => {
       this.changed = true;
     });
@@ -105,7 +106,7 @@ export class View {
     return { point: hit.point.toArray(), normal: normal.toArray() };
   }
 
-  // The cursor on the surface, lifted by the height; the force as an arrow, 1 N as long as a third of the model.
+  // Moves the cursor on the surface, raised by the height; the force is an arrow, 1 N as long as a third of the model.
   moveCursor(proxy, height, normal, force) {
     this.changed ||= Boolean(proxy) || this.cursor.visible;
     this.cursor.visible = this.needle.visible = Boolean(proxy);

@@ -5,13 +5,13 @@ set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
 mkdir -p "$1/objects/include"
 objects=$(realpath "$1/objects")
-export NODE_PATH=/usr/share/nodejs # Debian's emcc looks for acorn there
+export NODE_PATH=/usr/share/nodejs # Debian's emcc needs acorn from there
 ! command -v ccache >/dev/null || export EM_COMPILER_WRAPPER=${EM_COMPILER_WRAPPER-ccache}
-for header in nlohmann glm tiny_gltf.h; do # these alone: the rest of /usr/include is not for this machine
+for header in nlohmann glm tiny_gltf.h; do # only these: the rest of /usr/include is for another architecture
     ln -sfn "/usr/include/$header" "$objects/include/$header"
 done
 
-# usage: compile FILE OBJECTS COUNT: unless its object is newer than the file and every header
+# usage: compile FILE OBJECTS COUNT: skipped if its object is newer than the file and every header
 compile() {
     local object=$2/${1//\//_}.o
     local flags=(-O2 -DNDEBUG -DKNURL_STATIC -D_GNU_SOURCE -Isdk/include -Isdk/src -ffp-contract=off -fno-math-errno
@@ -29,7 +29,7 @@ cd "$root"
 newest=$(find sdk \( -name '*.h*' -o -name '*.cpp' \) -printf '%T@\n' | sort -n | tail -n 1)
 touch -d "@$newest" "$objects/newest"
 touch "$objects/begin"
-# The loader as one file, as sdk/CMakeLists.txt has it.
+# The loader as one file, as in sdk/CMakeLists.txt.
 loader=$objects/gltf.cpp
 find sdk/src/gltf -name '*.cpp' | sort | sed 's|^sdk/src/\(.*\)|#include "\1"|' >"$loader.new"
 cmp -s "$loader.new" "$loader" || mv "$loader.new" "$loader"

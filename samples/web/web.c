@@ -1,5 +1,5 @@
-/* What the page's worker calls, in WebAssembly: one scene with one HIP and its sound. Positions and forces are the
- * scene's, m and N. SPDX-License-Identifier: MIT */
+/* Functions for the page's worker, in WebAssembly: one scene with one HIP and its sound. Positions and forces are in
+ * scene axes, m and N. SPDX-License-Identifier: MIT */
 #include <knurl/audio.h>
 #include <knurl/gltf.h>
 #include <knurl/hip.h>
@@ -9,14 +9,14 @@
 #include <math.h>
 #include <string.h>
 
-#define ROW 23 /* doubles that a tick tells, see web_tick() */
+#define ROW 23 /* doubles per tick, see web_tick() */
 
 static knurl_scene *scene;
 static knurl_audio *audio;
 static knurl_hip_desc hip;
-static double quantum; /* m: positions are rounded to it; 0: not */
+static double quantum; /* m: positions are rounded to it; 0: exact */
 
-/* What the page asked for comes before the first load. */
+/* Applies settings that the page made before the first load. */
 static void begin_hip(void) {
     if (hip.struct_size == 0) {
         knurl_hip_desc_init(&hip, sizeof hip);
@@ -28,7 +28,7 @@ static void begin_hip(void) {
 static knurl_result open_hip(void) {
     knurl_workspace workspace;
     knurl_audio_desc desc;
-    knurl_workspace_set_identity(&workspace); /* the device is the scene */
+    knurl_workspace_set_identity(&workspace); /* device axes are the scene's */
     hip.workspace = &workspace;
     knurl_audio_desc_init(&desc, sizeof desc);
     desc.update_rate_hz = hip.update_rate_hz;
@@ -40,7 +40,7 @@ static knurl_result open_hip(void) {
     return result ? result : knurl_audio_create(&desc, &audio);
 }
 
-/* Loads a .glb instead of what was there. 0, or an error whose sentence web_message() gives; then the old one stays. */
+/* Loads a .glb in place of the present scene. 0, or an error, see web_message(); then the present scene stays. */
 EMSCRIPTEN_KEEPALIVE int web_load(const void *data, uint32_t size, const char *name) {
     knurl_scene *fresh = NULL;
     knurl_result result = knurl_scene_create(NULL, &fresh);
@@ -87,7 +87,7 @@ EMSCRIPTEN_KEEPALIVE const char *web_surface(uint32_t index, double numbers[15])
     return info.name;
 }
 
-/* How a surface feels from now on; numbers: as web_surface() gives the first six. */
+/* Changes a surface's material; numbers: the first six of web_surface(). */
 EMSCRIPTEN_KEEPALIVE int web_feel(uint32_t index, const double numbers[6]) {
     const knurl_surface_id surface = knurl_scene_get_surface(scene, index);
     knurl_material_desc material;
@@ -102,8 +102,8 @@ EMSCRIPTEN_KEEPALIVE int web_feel(uint32_t index, const double numbers[6]) {
     return result ? result : knurl_scene_set_material(scene, surface, &material);
 }
 
-/* Before a load or after: the update rate (Hz), the encoder's count (m; 0: exact), and KNURL_PROTECT_ bits. The HIP
- * begins anew. */
+/* Sets the update rate (Hz), the encoder's count (m; 0: exact), and KNURL_PROTECT_ bits, before or after a load. Resets
+ * the HIP. */
 EMSCRIPTEN_KEEPALIVE int web_device(double rate, double resolution, uint32_t protections) {
     begin_hip();
     hip.update_rate_hz = rate;
@@ -112,9 +112,9 @@ EMSCRIPTEN_KEEPALIVE int web_device(double rate, double resolution, uint32_t pro
     return scene ? open_hip() : KNURL_OK;
 }
 
-/* Ticks at `count` positions (3 doubles each; NaN: nowhere). rows: force (3), HIP (3), proxy (3), depth, height, f_t,
- * cycles (2), 1 in contact, surface index or -1, t, vx, vy, fs, normal (3); rows.js names them, and knurl run --view
- * sends the same. */
+/* Ticks at `count` positions (3 doubles each; NaN: no position). rows: force (3), HIP (3), proxy (3), depth, height,
+ * f_t, cycles (2), 1 in contact, surface index or -1, t, vx, vy, fs, normal (3); rows.js names them, and knurl run
+ * --view sends the same. */
 EMSCRIPTEN_KEEPALIVE void web_tick(uint32_t count, const double *positions, double *rows) {
     for (uint32_t k = 0; k < count; k++) {
         knurl_tick_input in;

@@ -1,15 +1,15 @@
-// The haptic thread of the page: ticks the scene in WebAssembly at its update rate, and tells what came of it some 60
-// times a second. SPDX-License-Identifier: MIT
+// The haptic thread of the page: ticks the scene in WebAssembly at its update rate, and sends the results some 60 times
+// per second. SPDX-License-Identifier: MIT
 import makeKnurl from "./knurl.mjs";
 import { ROW } from "./rows.js";
 
 const MOST = 2000; // ticks at once
 const BATCH_MS = 12;
-const GIVE_UP_MS = 100; // a tab that was in the background does not make up for it
-const SMOOTH_S = 0.012; // pointers come 60 to 120 times a second: a filter makes a motion of their steps
+const GIVE_UP_MS = 100; // longer gaps, such as a tab in the background, are skipped
+const SMOOTH_S = 0.012; // pointers are sampled 60 to 120 times per second: a filter smooths their steps
 const SAMPLE_RATE = 48000;
 
-// The first message brings WebAssembly, compiled; what comes before all is ready is answered then.
+// The first message has the compiled WebAssembly; earlier messages are answered once all is ready.
 const early = [];
 const compiled = await new Promise((resolve) => {
   onmessage = (event) => (event.data.kind === "begin" ? resolve(event.data.compiled) : early.push(event));
@@ -65,7 +65,7 @@ function surfaces() {
   });
 }
 
-// Ticks at positions, three numbers each; a row a tick.
+// Ticks at positions, three numbers each; returns one row per tick.
 function tick(positions) {
   const count = positions.length / 3;
   knurl.HEAPF64.set(positions, memory.positions / 8);
@@ -73,14 +73,14 @@ function tick(positions) {
   return knurl.HEAPF64.slice(memory.rows / 8, memory.rows / 8 + count * ROW);
 }
 
-// The sound of as many ticks.
+// Renders the sound of `count` ticks.
 function hear(count) {
   const frames = Math.round((count * SAMPLE_RATE) / state.rate);
   knurl._web_sound(memory.samples, frames);
   return knurl.HEAPF32.slice(memory.samples / 4, memory.samples / 4 + frames);
 }
 
-// The way of the HIP to where the pointer is: a critically damped spring.
+// Moves the HIP to the pointer: a critically damped spring.
 function follow(count) {
   const positions = new Float64Array(3 * count);
   const dt = 1 / state.rate;
@@ -101,13 +101,14 @@ function follow(count) {
   return positions;
 }
 
-// Along a line by itself, to and fro: {middle, along: to its end, speed: m/s, eased: of a sine, the greatest}.
+// Moves the HIP to and fro along a line: {middle, along: to its end, speed: m/s, eased: speed is the maximum of a
+// sine}.
 function travel(count) {
   const positions = new Float64Array(3 * count);
   const { middle, along, speed, eased } = state.way;
   const half = Math.hypot(...along);
   for (let k = 0; k < count; k++) {
-    const way = (state.travelled += speed / state.rate) / half; // in halves of the line
+    const way = (state.travelled += speed / state.rate) / half; // in units of half the line
     const at = eased ? -Math.cos(way) : 1 - Math.abs((way % 4) - 2);
     for (let i = 0; i < 3; i++) {
       positions[3 * k + i] = middle[i] + at * along[i];
@@ -153,7 +154,7 @@ const answers = {
     state.rate = rate;
     return { error: knurl._web_device(rate, resolution, protections) ? knurl.UTF8ToString(knurl._web_message()) : "" };
   },
-  // Ticks of a device from its first on at given positions, as fast as they go, and then their sound: to compare.
+  // Plays a new device at given positions, as fast as possible, and then its sound: for comparisons.
   play: ({ positions, ...device }) => {
     answers.device(device);
     const count = positions.length / 3;
