@@ -63,6 +63,13 @@ typedef struct function {
     int64_t (*call)(fixture *f, void **pointers);
 } function;
 
+static double no_height(const knurl_method_input *input, double *memory, void *user) KNURL_NONBLOCKING {
+    (void)input;
+    (void)memory;
+    (void)user;
+    return 0.0;
+}
+
 #define FUNCTIONS
 #include "pointers.g.h"
 

@@ -270,6 +270,13 @@ static knurl_result call_getters(void) {
     return knurl_scene_tick_batch(scene, 0, inputs, 2, outputs);
 }
 
+static double no_height(const knurl_method_input *input, double *memory, void *user) KNURL_NONBLOCKING {
+    (void)input;
+    (void)memory;
+    (void)user;
+    return 0.0;
+}
+
 static knurl_result call_small_things(void) {
     char line[32];
     int32_t method = 0;
@@ -286,6 +293,7 @@ static knurl_result call_small_things(void) {
     (void)knurl_method_name(1);
     (void)knurl_method_from_name("S2", &method);
     (void)knurl_method_from_name("S3", &method);
+    (void)knurl_method_add("own", 1.0, no_height, NULL, &method);
     (void)knurl_wave_prepare(KNURL_WAVE_T3, 0.01, 1e-4, 1000.0, &wave);
     (void)knurl_vibration_event_prepare(10.0, 1e-4, &event);
     (void)knurl_velocity_prepare(KNURL_VELOCITY_FOAW, 1e-5, 1000.0, &velocity);

@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "c67d99d8ab184798"
+#define KNURL_UNITY_INTERFACE "3ad11e15b611858f"
 
 /** Everything mirrored, where C# expects it: STRUCT(type, bytes), FIELD(type, field, its name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
@@ -77,6 +77,12 @@
     FIELD(knurl_grating_output, above_nyquist, "above_nyquist", 32, 4) \
     FIELD(knurl_grating_output, turned, "turned", 36, 4) \
     FIELD(knurl_grating_output, reserved, "reserved", 40, 8) \
+    STRUCT(knurl_method_input, 64) \
+    FIELD(knurl_method_input, cycles, "cycles", 0, 16) \
+    FIELD(knurl_method_input, velocity, "velocity", 16, 16) \
+    FIELD(knurl_method_input, spatial_frequency, "spatial_frequency", 32, 16) \
+    FIELD(knurl_method_input, temporal_frequency, "temporal_frequency", 48, 8) \
+    FIELD(knurl_method_input, period, "period", 56, 8) \
     STRUCT(knurl_material_desc, 64) \
     FIELD(knurl_material_desc, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_material_desc, method, "method", 4, 4) \

@@ -1,4 +1,4 @@
-/* Knurl: haptic gratings by methods S1 and S2 of the paper (section III) and by `bandlimited`, this project's own. A
+/* Knurl: haptic gratings by methods S1 and S2 of the paper (section III), `bandlimited`, and the caller's own. A
  * grating is a height map that repeats along a surface's x and y. State per HIP and surface: one struct, no heap.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_GRATING_H
@@ -26,7 +26,7 @@ enum { KNURL_METHOD_DEFAULT = 0, KNURL_METHOD_S1 = 1, KNURL_METHOD_S2 = 2, KNURL
 
 /** A grating's parameters; filled in by the caller, constant while it is played. */
 typedef struct knurl_grating {
-    int32_t method;              /**< KNURL_METHOD_ */
+    int32_t method;              /**< KNURL_METHOD_, or one from knurl_method_add() */
     uint32_t reserved[3];        /**< 0 */
     double spatial_frequency[2]; /**< fsx, fsy: cycles per metre along x and y, >= 0 */
     double amplitude;            /**< A: m, half peak to peak of the desired square wave, >= 0 */
@@ -37,13 +37,14 @@ typedef struct knurl_grating {
 
 /** The state of one HIP on one grating. Zero it to restart. */
 typedef struct knurl_grating_state {
-    knurl_vibration_event event; /**< S2: the playing event; its amplitude and kind do not change until its end */
+    knurl_vibration_event event; /**< S2: the playing event; its amplitude and kind do not change until its end. An own
+                                    method: its memory */
     int64_t event_count;         /**< S2: events started, BANDLIMITED: ridges begun, since the state was zeroed */
-    int32_t next_tick;           /**< S2: the next tick's index in the event */
+    int32_t next_tick;           /**< S2: the next tick's index in the event. An own method: minus its number */
     int32_t playing;             /**< S2: 1 if an event has ticks left */
     int32_t moving;              /**< S2: 1 after an event: halves the deadband */
     int32_t sign;                /**< sign of the last height other than 0: +1 or -1; 0 before the first */
-    double tracked[2];           /**< BANDLIMITED: the position along x and y, m */
+    double tracked[2];           /**< BANDLIMITED and own methods: the position along x and y, m */
     double phase;                /**< BANDLIMITED: cycles; a crest is at 0 */
     double offset;               /**< BANDLIMITED on a grid: the phase's lead over the position's, cycles */
     int32_t axis;                /**< BANDLIMITED on a grid: 0 or 1, the axis whose cycles are counted */
@@ -92,10 +93,42 @@ KNURL_API double knurl_grating_frequency(const double spatial_frequency[2], cons
 KNURL_API void knurl_grating_step(const knurl_grating *grating, knurl_grating_state *state, const double position[2],
                                   const double velocity[2], knurl_grating_output *output) KNURL_NONBLOCKING;
 
-/** A method's name: "S1", "S2" or "bandlimited"; null for any other number. [any thread] */
+/** One tick, for an own method's height function. Later versions may append to it. */
+typedef struct knurl_method_input {
+    double cycles[2]; /**< the phase: the position along x and y times fsx and fsy, cycles. S1 has the middle of a crest
+                         at each whole number. Without surface coordinates the velocity is integrated */
+    double velocity[2];          /**< m/s along x and y, of the HIP relative to the surface */
+    double spatial_frequency[2]; /**< fsx, fsy: cycles per metre along x and y */
+    double temporal_frequency;   /**< f_t = max(fsx |vx|, fsy |vy|): Hz */
+    double period;               /**< s: 1/f_h */
+} knurl_method_input;
+
+/** The height function of an own method: returns the height of this tick in units of A. memory: four numbers that it
+ * may change and finds again at the next tick; zeros when a contact begins, and after S2 or another own method has
+ * played in it. user: as registered. It is called on haptic threads, by several at once if there are several HIPs: no
+ * heap, lock, file, system call or unbounded loop, and no state but `memory`. */
+typedef double (*knurl_method_function)(const knurl_method_input *input, double memory[4],
+                                        void *user) KNURL_NONBLOCKING;
+
+/** Adds a method of the caller's own, for this process and until its end: its number is used as KNURL_METHOD_ are, its
+ * name wherever a method is chosen by name. Numbers may differ from process to process; store names.
+ *
+ * name: 1 to 31 letters, digits, '_' and '-', copied. crest: the greatest height in units of A, above 0 to 10; heights
+ * are held within -crest and crest, and one that is NaN or infinite becomes 0, so limits and protections of force apply
+ * to it as to other methods. height, user: used until the process ends. method: receives the number.
+ * Errors: KNURL_ERROR_ARGUMENT (name, also if a method has it; crest; height), KNURL_ERROR_FULL (there are 16). [any
+ * thread but the haptic, one at a time; others may use methods meanwhile] */
+KNURL_API knurl_result knurl_method_add(const char *name, double crest, knurl_method_function height, void *user,
+                                        int32_t *method);
+
+/** How many heights of an own method were not finite or beyond its crest, in this process; 0 for any other number. [any
+ * thread; allowed in a tick] */
+KNURL_API uint64_t knurl_method_get_faults(int32_t method) KNURL_NONBLOCKING;
+
+/** A method's name: "S1", "S2", "bandlimited" or that of an own method; null for any other number. [any thread] */
 KNURL_API const char *knurl_method_name(int32_t method);
 
-/** Finds a method by its name ("S1", "S2", "bandlimited").
+/** Finds a method by its name ("S1", "S2", "bandlimited" or that of an own method).
  * Errors: KNURL_ERROR_UNKNOWN, with the known names. [any thread] */
 KNURL_API knurl_result knurl_method_from_name(const char *name, int32_t *method);
 

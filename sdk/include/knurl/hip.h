@@ -182,8 +182,8 @@ typedef struct knurl_hip_counts {
                                        device's heat */
     double half_cycles_crossed;  /**< ridges and grooves crossed by the HIP, for every method, not rounded: the sum of 2
                                     f_t / f_h over all ticks and touched surfaces (Eq. 12; a stroke of L metres along x
-                                    crosses 2 fsx L). For S1 and BANDLIMITED in the grating's coordinates, for S2 in
-                                    metres; 0 without a grating */
+                                    crosses 2 fsx L). For S2 in metres, for other methods in the grating's coordinates;
+                                    0 without a grating */
     uint64_t half_cycles_played; /**< half cycles rendered: sign changes of the height */
     uint64_t squeezed_ticks;     /**< ticks with KNURL_TICK_SQUEEZED */
     uint64_t visit_limit_ticks;  /**< ticks with KNURL_TICK_VISIT_LIMIT */

@@ -23,7 +23,7 @@ typedef uint64_t knurl_surface_id;
 /** A surface's haptic properties. K, A and fs are per scene metre. */
 typedef struct knurl_material_desc {
     uint32_t struct_size;        /**< set by knurl_material_desc_init() */
-    int32_t method;              /**< KNURL_METHOD_; DEFAULT is BANDLIMITED */
+    int32_t method;              /**< KNURL_METHOD_, or one from knurl_method_add(); DEFAULT is BANDLIMITED */
     double spatial_frequency[2]; /**< fsx, fsy: cycles/m along the surface's x and y, 0 to 1e9; [0, 0] is smooth */
     double amplitude;            /**< A: m, half peak to peak of the square wave, 0 to 1e6 */
     double stiffness;            /**< K: N/m, > 0 */

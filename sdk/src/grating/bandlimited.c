@@ -5,6 +5,7 @@
 #include "grating/bandlimited.h"
 
 #include "base/base.h"
+#include "grating/follow.h"
 #include "grating/phase.h"
 
 #include <math.h>
@@ -23,9 +24,6 @@
 #define ALTERNATING 0.7
 
 #define FUNDAMENTAL 1.2732395447351628 /* 4/pi */
-
-/* m: the largest distance that a velocity makes in one tick. */
-#define FARTHEST 1e6
 
 /* On a grid: the other axis takes over if it crosses this many times as many ridges. */
 #define TAKE_OVER 1.1
@@ -80,24 +78,6 @@ static double mean(double from, double to) {
     return height > 1.0 ? 1.0 : height > -1.0 ? height : -1.0;
 }
 
-/* The distance of one tick, m. */
-static double distance(double speed, double period) {
-    const double moved = speed * period;
-    return fabs(moved) < FARTHEST ? moved : 0.0;
-}
-
-/* Moves the position on by one tick. Returns it, so that it stays in registers. */
-static inline knurl_along follow(knurl_grating_state *s, knurl_along position, knurl_along velocity, double period,
-                                 int32_t has_position) {
-    if (!has_position) {
-        position.x = s->tracked[0] + distance(velocity.x, period);
-        position.y = s->tracked[1] + distance(velocity.y, period);
-    }
-    s->tracked[0] = position.x;
-    s->tracked[1] = position.y;
-    return position;
-}
-
 /* On a grid: the axis that crosses the most ridges (Eq. 12). If the other one takes over, the phase goes on from where
  * it is, in the direction in which it went: a cosine is the same backwards. */
 static void choose_axis(const knurl_grating *g, knurl_grating_state *s, const double velocity[2]) {
@@ -125,7 +105,7 @@ double knurl_bandlimited_height(const knurl_grating *grating, knurl_grating_stat
         choose_axis(grating, state, both);
         axis = state->axis;
     }
-    const knurl_along at = follow(state, position, velocity, period, has_position);
+    const knurl_along at = knurl_follow(state, position, velocity, period, has_position);
     const double speed = axis ? velocity.y : velocity.x;
     const double phase = fs[axis] * (axis ? at.y : at.x) + state->offset;
     const double from = state->direction == 0 ? phase : state->phase;

@@ -36,7 +36,9 @@ knurl_result knurl_grating_check(knurl_grating *grating) {
     if (grating->method == KNURL_METHOD_DEFAULT) {
         grating->method = KNURL_METHOD_BANDLIMITED;
     } else if (!knurl_method_name(grating->method)) {
-        return knurl_fail(KNURL_ERROR_UNKNOWN, "method: expected one of KNURL_METHOD_, found %d", (int)grating->method);
+        return knurl_fail(KNURL_ERROR_UNKNOWN,
+                          "method: expected one of KNURL_METHOD_ or a number from knurl_method_add(), found %d",
+                          (int)grating->method);
     }
     return KNURL_OK;
 }

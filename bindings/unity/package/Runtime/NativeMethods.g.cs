@@ -128,6 +128,16 @@ namespace Knurl
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_method_input
+    {
+        public fixed double cycles[2];
+        public fixed double velocity[2];
+        public fixed double spatial_frequency[2];
+        public double temporal_frequency;
+        public double period;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct knurl_material_desc
     {
         public uint struct_size;
@@ -605,6 +615,9 @@ namespace Knurl
     internal unsafe delegate void knurl_allocator_release(IntPtr memory, UIntPtr size, IntPtr user);
 
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    internal unsafe delegate double knurl_method_function(knurl_method_input* input, double* memory, IntPtr user);
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     internal unsafe delegate void knurl_device_functions_get_info(IntPtr user, knurl_device_info* info);
 
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
@@ -646,7 +659,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "c67d99d8ab184798";
+        internal const string Interface = "3ad11e15b611858f";
 
         internal const string Version = "0.3.0";
 
@@ -665,6 +678,7 @@ namespace Knurl
                 case "knurl_grating": return sizeof(knurl_grating);
                 case "knurl_grating_state": return sizeof(knurl_grating_state);
                 case "knurl_grating_output": return sizeof(knurl_grating_output);
+                case "knurl_method_input": return sizeof(knurl_method_input);
                 case "knurl_material_desc": return sizeof(knurl_material_desc);
                 case "knurl_surface_desc": return sizeof(knurl_surface_desc);
                 case "knurl_scene_desc": return sizeof(knurl_scene_desc);
@@ -900,6 +914,12 @@ namespace Knurl
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void knurl_grating_step(knurl_grating* grating, knurl_grating_state* state,
             double* position, double* velocity, knurl_grating_output* output);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_method_add(byte* name, double crest, IntPtr height, IntPtr user, int* method);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern ulong knurl_method_get_faults(int method);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern byte* knurl_method_name(int method);
