@@ -19,7 +19,7 @@ int main(void) {
     knurl_surface_desc_init(&surface, sizeof surface);
     surface.plane = &plane;
     surface.material = &material;
-    surface.normal[1] = 1.0; /* the plane's front looks up */
+    surface.normal[1] = 1.0; /* the plane's front faces up */
 
     (void)knurl_device_zero_on_exit(0); /* zero force however this program ends */
     knurl_loop_desc desc;

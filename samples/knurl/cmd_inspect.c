@@ -29,7 +29,7 @@ static int in_reach(const knurl_scene *scene, const knurl_device_info *device, c
     if (knurl_scene_get_workspace(scene, 0, &workspace)) {
         return 0;
     }
-    for (int axis = 0; axis < 3; axis++) { /* by default it is not turned, and its scale is 1 */
+    for (int axis = 0; axis < 3; axis++) { /* the default has no rotation, and a scale of 1 */
         if (info->bounds_min[axis] > workspace.origin[axis] + device->workspace_max[axis] ||
             info->bounds_max[axis] < workspace.origin[axis] + device->workspace_min[axis]) {
             return 0;

@@ -11,8 +11,8 @@
 #define PI         3.141592653589793
 #define SPREAD     26
 #define EXPERIMENT 12
-#define LEAD_S     0.2 /* in which estimators' windows fill */
-#define FIRST_S    4.0 /* after which S2's first event has ended, which may have begun at a small speed */
+#define LEAD_S     0.2 /* to fill estimators' windows */
+#define FIRST_S    4.0 /* S2's first event may start at a low speed: it has ended by then */
 #define STEADY_S   2.0
 #define STROKES_S  4.0
 #define STROKES_HZ 250.0
@@ -27,7 +27,7 @@ double accuracy_frequency(size_t i) {
     return 421.3 + 2.0 * (double)(i - SPREAD - EXPERIMENT);
 }
 
-/* What is felt at all speeds. */
+/* The range of felt levels over all speeds. */
 typedef struct range {
     double least, most;
 } range;
@@ -86,7 +86,7 @@ static int measure_steady(const study_contender *c, double frequency, double *he
     return 1;
 }
 
-/* v = vmax |sin(pi t)|, always forwards, so that what is out adds up. */
+/* v = vmax |sin(pi t)|, always forwards, so that errors add up. */
 static void play_strokes(const study_contender *c, study_rendering *r, study_scan *scan, double *phase) {
     for (size_t k = 0; k < scan->ticks; k++) {
         const double t = (double)k / c->update_rate_hz;

@@ -10,8 +10,9 @@
 #define TAU         6.283185307179586
 #define RIDGE       0.001
 #define RESOLUTION  0.055e-3 /* the Touch's */
-#define LOW_PASS_HZ 20.0     /* as late as FOAW's widest window, 8 ms. 10 Hz halves its error and doubles its delay */
-#define START       0.123    /* cycles: no edge, no crest and no middle */
+#define LOW_PASS_HZ 20.0 /* the delay of FOAW's widest window, 8 ms. 10 Hz would halve the error and double the delay  \
+                          */
+#define START 0.123      /* cycles: not at an edge, crest or middle */
 
 const study_method study_methods[] = {{"T1", KNURL_WAVE_T1, 0, 0},
                                       {"T2", KNURL_WAVE_T2, 0, 0},
@@ -34,7 +35,7 @@ int study_contender_at(size_t index, study_contender *contender) {
             contender->update_rate_hz = rates[index / variants];
             contender->resolution = index % positions == 1 ? RESOLUTION : 0.0;
             contender->velocity = m->uses_velocity              ? (int)(index % variants / positions)
-                                  : contender->resolution > 0.0 ? STUDY_FOAW /* S1: for the tracked position alone */
+                                  : contender->resolution > 0.0 ? STUDY_FOAW /* S1: only for the tracked position */
                                                                 : STUDY_IDEAL;
             contender->ridge = RIDGE;
             return 1;
@@ -82,7 +83,8 @@ int study_rendering_start(study_rendering *r, const study_contender *contender, 
            knurl_velocity_prepare(estimator, RESOLUTION, contender->update_rate_hz, &r->estimator);
 }
 
-/* An event is one cycle, the six-tick mix 2.4 of 2.5 ticks; without events, two changes of sign are one. */
+/* An event is one cycle, the six-tick mix 2.4 cycles of 2.5 ticks; without events, two changes of sign are one cycle.
+ */
 static double cycles_of(study_rendering *r, const knurl_grating_output *output) {
     if (study_plays_event(&r->grating, output)) {
         const double cycles = r->state.event.kind == KNURL_EVENT_MIXED ? 2.4 : 1.0;
@@ -110,7 +112,7 @@ double study_rendering_tick_at(study_rendering *r, double x, double speed) {
     } else if (r->contender.velocity != STUDY_IDEAL) {
         knurl_velocity_update(&r->estimator, position, velocity);
     }
-    if (quantum > 0.0 && r->grating.method != KNURL_METHOD_S2) { /* as a scene does */
+    if (quantum > 0.0 && r->grating.method != KNURL_METHOD_S2) { /* as in a scene */
         knurl_velocity_track(&r->estimator, position, velocity, position);
     }
     knurl_grating_step(&r->grating, &r->state, position, velocity, &output);

@@ -19,7 +19,7 @@ static double now_ns(void) {
     return (double)now.tv_sec * 1e9 + (double)now.tv_nsec;
 }
 
-/* What is left of a tick when nothing is rendered. Called through a pointer, as the real one is. */
+/* A tick without rendering. Called through a pointer, like the real one. */
 static double empty_tick(void *subject) {
     study_rendering *r = subject;
     const uint64_t tick = r->tick++;
@@ -56,7 +56,7 @@ double study_empty_tick_ns(void) {
 
 int study_measure_cost(const study_contender *contender, study_cost *cost) {
     study_rendering r;
-    const double empty = study_empty_tick_ns(); /* again each time: the machine's speed drifts */
+    const double empty = study_empty_tick_ns(); /* measured each time: the machine's speed drifts */
     if (study_rendering_start(&r, contender, 137.0)) {
         return 0;
     }
@@ -66,7 +66,7 @@ int study_measure_cost(const study_contender *contender, study_cost *cost) {
     return 1;
 }
 
-/* Instructions of a whole run of knurl_tick_row; negative where they cannot be counted. */
+/* Instructions of a whole run of knurl_tick_row; negative if they cannot be counted. */
 static double count_run(const char *program, size_t index, unsigned long ticks) {
     char command[1400];
     char line[512];
@@ -74,7 +74,7 @@ static double count_run(const char *program, size_t index, unsigned long ticks) 
     (void)snprintf(command, sizeof command,
                    "valgrind --tool=callgrind --callgrind-out-file=/dev/null '%s' %lu %lu 2>&1 </dev/null", program,
                    (unsigned long)index, ticks);
-    /* NOLINTNEXTLINE(bugprone-command-processor): the path has no quote in it, the rest is this function's own */
+    /* NOLINTNEXTLINE(bugprone-command-processor): the path contains no quote, the rest is constant */
     FILE *stream = popen(command, "r");
     while (stream && fgets(line, sizeof line, stream)) {
         const char *found = strstr(line, "Collected : ");

@@ -6,21 +6,21 @@
 #include "contender.h"
 
 typedef struct study_cost {
-    double ns_median; /**< a tick, the empty tick's taken off; over batches of 1,000 */
+    double ns_median; /**< per tick, less the empty tick; over batches of 1,000 */
     double ns_p99;
 } study_cost;
 
-/** Medians over batches of what one tick of `subject` takes, the empty tick included. */
+/** Median times of a tick of `subject` over batches, including the empty tick. */
 void study_time_ticks(double (*tick)(void *), void *subject, study_cost *cost);
 
-/** Times a contender. 0 where memory is not to be had. */
+/** Times a contender. Returns 0 if memory runs out. */
 int study_measure_cost(const study_contender *contender, study_cost *cost);
 
-/** The calibrated empty tick: loop, call and motion of a tick that renders nothing, ns. */
+/** The calibrated empty tick: loop, call and motion of a tick without rendering, ns. */
 double study_empty_tick_ns(void);
 
-/** Instructions a tick, by valgrind's callgrind: the difference of a run of 20,000 and one of 10,000 ticks of
- * knurl_tick_row, which stands beside the running program. NaN where valgrind is not installed. */
+/** Instructions per tick, by valgrind's callgrind: the difference between runs of 20,000 and 10,000 ticks of
+ * knurl_tick_row, in the running program's folder. NaN if valgrind is not installed. */
 double study_count_instructions(size_t contender_index);
 
 #endif

@@ -10,7 +10,7 @@
 #define LOWEST_HZ     20.0
 #define SPEED_MM_S    250.0 /* the fastest common scanning speed (section IV-B6) */
 #define PAPERS_WEBER  0.38  /* haptic, "approximately" */
-#define PRINTED_WEBER 0.383 /* what the printed 461 Hz needs: 333.3 Hz x 1.383 */
+#define PRINTED_WEBER 0.383 /* from the printed 461 Hz: 333.3 Hz x 1.383 */
 
 static const char *const set_names[STUDY_SETS] = {"even", "odd", "mixed"};
 static const char *const set_words[STUDY_SETS] = {"even periods only", "with odd periods", "with the mixed case"};
@@ -22,7 +22,7 @@ size_t study_reachable(double update_rate_hz, double lowest_hz, int set, study_r
     size_t count = 0;
     knurl_vibration_event event;
     int32_t last = 0;
-    /* Algorithm 6 decides on quarters of a tick: asking for each of them meets every event there is */
+    /* Algorithm 6 rounds to quarters of a tick: these periods give all possible events */
     for (int32_t quarters = 8; quarters <= 4.0 * update_rate_hz / lowest_hz * (1.0 + 1e-9); quarters++) {
         if (knurl_vibration_event_prepare(0.25 * quarters, 1.0, &event) || event.length * 4 + event.kind == last) {
             continue;
@@ -87,7 +87,7 @@ static void write_gaps(json_writer *json, const char *key, const study_reach *re
     json_close(json, ']');
 }
 
-/* One set at one Weber fraction: how far it goes, and its gaps by both rules. */
+/* One set at one Weber fraction: its limit, and its gaps by both rules. */
 static void write_weber(json_writer *json, const study_reach *reach, size_t count, double weber) {
     json_open(json, NULL, '{');
     json_number(json, "weber", weber);
@@ -125,9 +125,10 @@ static void write_rate(json_writer *json, double rate) {
     json_close(json, '}');
 }
 
-/* The paper prints where steps begin to be heard, but no audible Weber fraction. Around its limit: the neighbours that
- * can be reached; the fractions (from, below) for which this step is the first to be heard; and the fraction if the
- * limit is f(1 + WF), as 230 and 461 Hz are: with that one, steps far lower would be heard, so that is not its rule. */
+/* The paper prints the frequency from which steps are audible, but no audible Weber fraction. Around that limit: the
+ * reachable neighbours; the fractions (from, below) for which this step is the first audible one; and the fraction if
+ * the limit were f(1 + WF), as for 230 and 461 Hz: with that one, much lower steps would be audible, so it is not the
+ * paper's rule. */
 static void write_audible(json_writer *json, int set, double printed) {
     study_reach reach[STUDY_MAX_REACH];
     const size_t count = study_reachable(1000.0, LOWEST_HZ, set, reach);

@@ -1,4 +1,4 @@
-/* The frequencies that a method can play, and where the steps between them can be felt (figure 3).
+/* The frequencies that a method can play, and the steps between them that can be felt (figure 3).
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_STUDY_COVERAGE_H
 #define KNURL_STUDY_COVERAGE_H
@@ -6,12 +6,12 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/** What is allowed to be played: even periods; and odd ones; and the mixed case, 2.5 ticks. */
+/** Sets of periods, each including the previous one: even; odd; the mixed case, 2.5 ticks. */
 enum { STUDY_SET_EVEN = 0, STUDY_SET_ODD = 1, STUDY_SET_MIXED = 2, STUDY_SETS = 3 };
 
 /** STUDY_GAP_NEIGHBOUR is the paper's rule: a gap is a neighbour above f(1 + WF); it reaches from f(1 + WF) to that
- * neighbour. STUDY_GAP_UNREACHED asks less, that every frequency be within WF of one that is played, on either side:
- * such a gap reaches from f(1 + WF) to the neighbour / (1 + WF). */
+ * neighbour. STUDY_GAP_UNREACHED is weaker: every frequency must be within WF of a played one on either side, so a gap
+ * reaches from f(1 + WF) to the neighbour / (1 + WF). */
 enum { STUDY_GAP_NEIGHBOUR = 0, STUDY_GAP_UNREACHED = 1 };
 
 /** Enough for 20 Hz at 10 kHz. */
@@ -32,8 +32,8 @@ typedef struct study_gap {
  * those of `set` only. reach: STUDY_MAX_REACH. Returns their number. */
 size_t study_reachable(double update_rate_hz, double lowest_hz, int set, study_reach *reach);
 
-/** The gaps between them by `rule`, ascending; a neighbour at f(1 + WF) but for rounding (1e-9) leaves none.
- * gaps: as many as `count`. Returns their number. */
+/** The gaps between them by `rule`, ascending; a neighbour at f(1 + WF), within rounding (1e-9), is no gap. gaps: room
+ * for `count`. Returns their number. */
 size_t study_gaps(const study_reach *reach, size_t count, double weber, int rule, study_gap *gaps);
 
 /** The highest frequency up to which there is no gap by the paper's rule. count: at least 1. */

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Makes a picture for pages in dark colours: lightness is inverted, hues stay, greys are a little lighter.
-NAME_dark.png carries the checksum of the NAME.png that it was made from (tests/docs/check.py looks at it).
+NAME_dark.png contains the checksum of its NAME.png, which tests/docs/check.py compares.
 
 usage: dark.py NAME.png...
 
@@ -14,7 +14,7 @@ from matplotlib.image import imread, imsave
 
 from style import BadInput
 
-BACKGROUND, INK = np.array([0x0d, 0x11, 0x17]) / 255.0, np.array([0xe6, 0xed, 0xf3]) / 255.0 # of white and of black
+BACKGROUND, INK = np.array([0x0d, 0x11, 0x17]) / 255.0, np.array([0xe6, 0xed, 0xf3]) / 255.0 # for white and black
 
 
 def main(paths):

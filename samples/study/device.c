@@ -10,12 +10,12 @@
 #include <string.h>
 
 #define PERIODS  35 /* 2, 2.5, 3, 4 ... 35 ticks: 29 to 500 Hz */
-#define ODD      17 /* of them: 3, 5 ... 35 */
+#define ODD      17 /* number of odd ones: 3, 5 ... 35 */
 #define FIXTURES 4
 
-/* How stiffly fixture and drive hold the moving mass (N/m), and what the drive loses (N s/m): neither is published. The
- * first loses enough not to ring, as the paper's words ask for (amplitudes "often well below the desired value"); it is
- * fitted to those words, as no numbers are printed. The others lose what the fake device does, and ring. */
+/* Stiffness of fixture and drive (N/m), and damping of the drive (N s/m): neither is published. The first is damped
+ * enough not to ring; it is fitted to the paper's words (amplitudes "often well below the desired value"), because no
+ * numbers are printed. The others have the fake device's damping, and ring. */
 static const double fixtures[FIXTURES][2] = {{40e3, 60.0}, {10e3, 0.5}, {40e3, 0.5}, {160e3, 0.5}};
 
 typedef struct device_row {
@@ -25,7 +25,7 @@ typedef struct device_row {
     double frequency[3]; /* Hz, of the measured force's dominant component */
     double net_asked[3]; /* mean of the command, N */
     double net[3];       /* measured, bias subtracted as in the appendix, N */
-    double net_raw[3];   /* measured, as it is, N */
+    double net_raw[3];   /* measured, without subtraction, N */
     double pcc[3];       /* T1-T2, T1-T3, T2-T3, measured */
 } device_row;
 
@@ -93,14 +93,14 @@ static void write_csv(FILE *csv, const bench_fixture *fixture, const device_row 
     }
 }
 
-/* What the appendix says, in numbers, of one fixture. */
+/* The appendix's claims in numbers, for one fixture. */
 typedef struct device_claims {
-    double t1_t3;         /* least ratio of T3's to T1's dominant amplitude, or its inverse: the most unlike */
+    double t1_t3;         /* smallest ratio of T3's to T1's dominant amplitude, or its inverse */
     double t2_gain;       /* mean over odd periods of T2's transmission (measured / commanded) over T3's */
     double net_t1_3;      /* T1's net force at 3 ms, as measured */
     double net_others;    /* greatest |net| of T2 and T3, as measured */
     double net_corrected; /* and with the bias subtracted */
-    double below;         /* share of periods where T3 is below 0.9 of its command */
+    double below;         /* share of periods at which T3 is below 0.9 of its command */
     double pcc[2];        /* T1-T3 at 2 and 3 ms */
     double pcc_above_3;   /* least T1-T3 above 3 ms */
 } device_claims;
@@ -199,7 +199,7 @@ static void write_settings(json_writer *json) {
     json_close(json, ']');
 }
 
-/* 0: no memory, or the simulated device refused */
+/* 0: out of memory, or an error of the simulated device */
 static int write_all(FILE *csv, json_writer *json, void *user) {
     (void)user;
     fputs("stiffness,viscous,period_ticks,method,commanded,dominant,dominant_hz,net_commanded,net,net_raw\n", csv);

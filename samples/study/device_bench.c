@@ -6,11 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The fake device's hand is 1e4 N/m at most. Mass, damping and stiffness divided by one number multiply the motion by
- * it and leave every force as it is, dry friction included: so a stiff fixture is played as a light mass in that hand.
+/* The fake device's hand is 1e4 N/m at most. Dividing mass, damping and stiffness by a number multiplies the motion by
+ * it and changes no force, not even dry friction: so a stiff fixture is simulated as a light mass in that hand.
  */
 #define HAND_STIFFNESS 1e4 /* N/m */
-#define REST           500 /* ticks: 0.25 s for the hand's way down, and as much to come to rest */
+#define REST           500 /* ticks: 0.25 s for the hand to come down, and as long to come to rest */
 #define AFTER          300 /* ticks */
 #define BIAS           100 /* ticks, the last ones of each pause */
 #define SETTLED        400 /* ticks at least: the slowest resonance has died away by e^-18 */
@@ -18,9 +18,9 @@
 
 typedef struct bench {
     knurl_device *device;
-    double stiffness; /* as it is simulated */
+    double stiffness; /* as simulated */
     double damping;
-    double last; /* m: the sample before */
+    double last; /* m: the previous sample */
 } bench;
 
 bench_fixture bench_make_fixture(double stiffness, double viscous) {
@@ -54,13 +54,13 @@ static int open_bench(const bench_fixture *fixture, bench *b) {
     return 1;
 }
 
-/* One tick of a command; the sensor's samples go to `samples`, or are only averaged. Returns their mean. */
+/* One tick of a command; stores the sensor's samples in `samples` unless it is null. Returns their mean. */
 static double play_tick(bench *b, double newtons, double *samples) {
     const double force[3] = {0.0, newtons, 0.0}; /* vertical, as in the appendix */
     double sum = 0.0;
     for (int i = 0; i < BENCH_OVERSAMPLING; i++) {
         knurl_device_sample at;
-        (void)knurl_device_write(b->device, force); /* the fake device's cable stays in */
+        (void)knurl_device_write(b->device, force); /* the fake device is never unplugged */
         (void)knurl_device_read(b->device, &at);
         const double velocity = (at.position[1] - b->last) * BENCH_SAMPLING_RATE;
         const double reading = b->stiffness * 0.5 * (at.position[1] + b->last) + b->damping * velocity;
@@ -73,7 +73,7 @@ static double play_tick(bench *b, double newtons, double *samples) {
     return sum / BENCH_OVERSAMPLING;
 }
 
-/* A pause; the mean of its last ticks. */
+/* Plays a pause. Returns the mean of its last ticks. */
 static double play_rest(bench *b, int ticks) {
     double sum = 0.0;
     for (int k = 0; k < ticks; k++) {

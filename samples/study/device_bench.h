@@ -13,14 +13,14 @@
 #define BENCH_COULOMB       0.26  /* N */
 #define BENCH_DAMPING_RATIO 0.1   /* of the fixture: assumed */
 
-/** What holds the plant, and what it loses on the way. */
+/** The stiffness and damping of fixture and device. */
 typedef struct bench_fixture {
     double stiffness; /**< N/m, 1e4 to 4.5e5 */
     double damping;   /**< of the fixture, felt by the sensor: N s/m */
     double viscous;   /**< of the device, not felt by the sensor: N s/m */
 } bench_fixture;
 
-/** What the sensor says at rest, N. */
+/** The sensor's reading at rest, N. */
 typedef struct bench_reading {
     double before; /**< mean of 0.1 s before the signal */
     double after;  /**< and after it */
@@ -32,9 +32,9 @@ bench_fixture bench_make_fixture(double stiffness, double viscous);
 /** Hz: of the mass in the fixture, undamped. */
 double bench_resonance(const bench_fixture *fixture);
 
-/** Plays whole periods of a command (N a tick, at BENCH_UPDATE_RATE) and gives what the sensor reads once that has
- * settled: at least half a second, a whole number of periods that begins where the command begins. Returns 0 where
- * memory is not to be had. Free `measured` with study_signal_free(). */
+/** Plays whole periods of a command (N per tick, at BENCH_UPDATE_RATE) and returns the sensor's readings once they have
+ * settled: at least half a second, a whole number of periods from the start of a period. Returns 0 if memory runs out.
+ * Free `measured` with study_signal_free(). */
 int bench_measure(const bench_fixture *fixture, const study_signal *command, study_signal *measured,
                   bench_reading *reading);
 

@@ -1,13 +1,13 @@
 #!/usr/bin/python3
-"""Says what a picture was drawn from, in a few lines a person can read, and whether that is still what the code gives.
+"""Summarises the data of a picture in a few readable lines, and checks that the code still gives the same data.
 
-usage: drawn.py PICTURE.data DATA...           writes it
-       drawn.py --check PICTURE.data DATA...   exit 1 and a line for each column that has changed
+usage: drawn.py PICTURE.data DATA...           writes the summary
+       drawn.py --check PICTURE.data DATA...   exit 1, and one line for each column that has changed
 
-DATA is what a picture was drawn from: JSON, CSV, or a sound as knurl run --wav writes it. A line of PICTURE.data is a column (or the values of one key of the
-JSON, in all its rows): how many numbers, their mean, the mean of their sizes, their mean with weights that change with
-the row (two rows that change places are seen), and a checksum of what is no number. Compared to 1e-4 of the mean size, so
-that compilers and libraries do not matter. What was timed on the machine differs each time and is left out.
+DATA are the files of a picture: JSON, CSV, or a sound of knurl run --wav. A line of PICTURE.data is a column (or the
+values of one key of the JSON, in all rows): the count of numbers, their mean, the mean of their magnitudes, their mean
+with weights that change with the row (to detect swapped rows), and a checksum of all other cells. Compared to 1e-4 of
+the mean magnitude, so that compilers and libraries do not matter. Timings are left out.
 
 SPDX-License-Identifier: MIT
 """
@@ -22,12 +22,12 @@ import wave
 import zlib
 
 TOLERANCE = 1e-4
-LEAST = 1e-7  # single-precision spectra differ by that between libraries
+LEAST = 1e-7  # single-precision spectra differ this much between libraries
 TIMED = re.compile(r"(^|[._])(ns|cost|machine|instructions)([._]|$)")
 
 
 def walk(value, path, columns):
-    """Collects JSON values by their path, in which every index of a list is []."""
+    """Collects JSON values by their path, with every list index written as []."""
     if isinstance(value, dict):
         for key, inner in value.items():
             walk(inner, f"{path}.{key}" if path else key, columns)
@@ -64,7 +64,7 @@ def number(value):
 
 
 def summary(values):
-    """count, mean, mean size, weighted mean of the numbers; checksum of the others and of where they stand."""
+    """count, mean, mean magnitude, weighted mean of the numbers; checksum of the other cells and their positions."""
     numbers = [(place, n) for place, value in enumerate(values) if (n := number(value)) is not None]
     others = [f"{place} {value}" for place, value in enumerate(values) if number(value) is None]
     count = max(1, len(numbers))
@@ -93,7 +93,7 @@ def differ(was, now):
 
 
 def check(path, now):
-    """The lines to be told: none where all is as it was."""
+    """The lines to print; empty if nothing has changed."""
     was = parse(path)
     told = [f"{key}: it was not there" if key not in was else f"{key}: it is gone" for key in sorted(set(was) ^ set(now))]
     return told + [f"{key}: {now[key][0]} numbers, mean {now[key][1]:.6g}, was {was[key][0]}, {was[key][1]:.6g}"

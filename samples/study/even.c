@@ -1,4 +1,4 @@
-/* Study `even`: gains of the amplitude over f_t with which ridges are equally strong, and how even they become.
+/* Study `even`: gains of the amplitude over f_t that make ridges equally strong, and the remaining differences.
  * SPDX-License-Identifier: MIT */
 #include "even.h"
 
@@ -12,7 +12,7 @@
 #define RATE  1000.0
 #define TICKS 2000
 #define FROM  20.0
-#define TO    310.0 /* Hz: the weakest speed up to here is the measure; even to 300 */
+#define TO    310.0 /* Hz: the reference is the weakest level up to here; even up to 300 */
 
 double even_felt(double hz) {
     static double heights[TICKS];
@@ -47,7 +47,7 @@ int even_find(knurl_gain gains[EVEN_GAINS]) {
     return 0;
 }
 
-/* As knurl_scene_set_gains() has it. */
+/* The same as knurl_scene_set_gains(). */
 static double gain_at(const knurl_gain gains[EVEN_GAINS], double hz) {
     const double at = fmin(fmax(16.0 * log2(hz / FROM), 0.0), EVEN_GAINS - 1.001);
     const int i = (int)at;

@@ -1,5 +1,5 @@
-/* The catalogue of failures: for each method each way it fails, as a number with its closed form or bound, a trace to
- * draw, the condition that avoids it, and the test that pins it. One row a failure; failures.md is written from them.
+/* The catalogue of failures: each failure of each method as a number with its closed form or bound, a trace to draw,
+ * the condition that avoids it, and the test that checks it. One row per failure; failures.md is generated from them.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_STUDY_FAILURES_H
 #define KNURL_STUDY_FAILURES_H
@@ -8,40 +8,40 @@
 
 #include <stdio.h>
 
-/** Where a failure's trace goes; a null stream draws nothing. */
+/** Output of a failure's trace; a null stream draws nothing. */
 typedef struct failure_sink {
     FILE *csv; /**< rows of id, series, t, value */
     const char *id;
 } failure_sink;
 
 typedef struct failure {
-    const char *id;     /**< one word, as in the CSV */
+    const char *id;     /**< one word, also used in the CSV */
     const char *group;  /**< the method, or "velocity", "wall" */
-    const char *name;   /**< what it does wrong, in a few words */
-    const char *what;   /**< how, in a sentence */
+    const char *name;   /**< the failure, in a few words */
+    const char *what;   /**< a sentence that explains it */
     const char *format; /**< of the number, with its unit; one %g-like conversion */
-    const char *expect; /**< where the number comes from: a closed form or a bound */
+    const char *expect; /**< source of the number: a closed form or a bound */
     const char *avoid;  /**< the condition to keep to */
-    const char *axis;   /**< what t is */
-    /** Measures the number and draws the trace. 1, or 0 where memory is not to be had. */
+    const char *axis;   /**< label of t */
+    /** Measures the number and draws the trace. 1, or 0 if memory runs out. */
     int (*measure)(const failure_sink *sink, double *number);
 } failure;
 
-/** All of them, ended by a null id. The same name in tests/fidelity/test_failures.c pins the number. */
+/** All of them, ended by a null id. The test of the same name in tests/fidelity/test_failures.c checks the number. */
 extern const failure failures[];
 
 /** One point of a trace. */
 void failure_point(const failure_sink *sink, const char *series, double t, double value);
 
-/** Draws the first `ticks` of a scan: its height in A, and where it is on the surface ("cycle"): `cycle` at the start,
- * NaN where there is no such thing. t: ms. */
+/** Draws the first `ticks` of a scan: its height in A, and its position on the surface ("cycle"): `cycle` at the start,
+ * NaN if it has none. t: ms. */
 void failure_draw_heights(const failure_sink *sink, const study_scan *scan, double cycle, size_t ticks);
 
 /** Where failure_across() begins: m along x, and cycles from a ridge's rising edge (Eq. 11). */
 #define FAILURE_START 0.000137
 #define FAILURE_CYCLE 0.387
 
-/** A straight scan across ridges of 1 mm at temporal frequency f (Hz), 1 kHz. 1, or 0: no memory. */
+/** A straight scan across ridges of 1 mm at temporal frequency f (Hz), 1 kHz. 1, or 0 if memory runs out. */
 int failure_across(int32_t method, double f, size_t ticks, study_scan *scan);
 
 /** Draws cycles played and crossed, every `step`-th tick. t: s. */

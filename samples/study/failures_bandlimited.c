@@ -72,7 +72,7 @@ int failure_band_pitch(const failure_sink *sink, double *number) {
     return 1;
 }
 
-/* Twice round a rectangle on a grid of 1 mm: how far the phase is from where it was at the same place. */
+/* Twice round a rectangle on a grid of 1 mm: the difference of phase at the same place. */
 int failure_band_loop(const failure_sink *sink, double *number) {
     static const int legs[4] = {103, 51, 103, 51}; /* ticks at 100 mm/s */
     static const double ways[4][2] = {{1.0, 0.0}, {0.0, 1.0}, {-1.0, 0.0}, {0.0, -1.0}};
@@ -82,7 +82,7 @@ int failure_band_loop(const failure_sink *sink, double *number) {
     double first = NAN;
     memset(&state, 0, sizeof state);
     for (int leg = 0; leg < 5; leg++) {
-        for (int k = 0; k < legs[leg % 4]; k++) { /* the velocity is that of the way to here */
+        for (int k = 0; k < legs[leg % 4]; k++) { /* the velocity of the last step */
             const double velocity[2] = {0.1 * ways[leg % 4][0], 0.1 * ways[leg % 4][1]};
             knurl_grating_output out;
             position[0] += leg > 0 || k > 0 ? 1e-3 * velocity[0] : 0.0;

@@ -1,4 +1,4 @@
-/* Where contact fails: surfaces that are open, reversed, too many in one place, or close over the HIP.
+/* Failures of contact: surfaces that are open, reversed, too many in one place, or close over the HIP.
  * SPDX-License-Identifier: MIT */
 #include "failures.h"
 
@@ -22,7 +22,7 @@ static int make_scene(uint32_t without, knurl_scene **scene) {
     return knurl_scene_create(NULL, scene) || knurl_scene_configure_hip(*scene, 0, &hip);
 }
 
-/* Adds a surface: smooth, but for the crests of an amplitude. */
+/* Adds a surface: smooth, or with crests if amplitude is not 0. */
 static int add_surface(knurl_scene *scene, knurl_surface_desc *desc, double amplitude, knurl_surface_id *id) {
     knurl_material_desc material;
     knurl_material_desc_init(&material, sizeof material);
@@ -37,7 +37,7 @@ static int add_surface(knurl_scene *scene, knurl_surface_desc *desc, double ampl
     return failed;
 }
 
-/* A plane of 40 by 40 mm about a place, its front turned about y by an angle (rad) from +z. */
+/* A plane of 40 by 40 mm about a point, its front turned about y by an angle (rad) from +z. */
 static int add_plane(knurl_scene *scene, double x, double z, double angle, knurl_surface_id *id) {
     knurl_surface_desc desc;
     knurl_plane_desc plane;
@@ -69,7 +69,7 @@ static double length(const double v[3]) {
 
 #define CRACK 0.0002 /* m */
 
-/* 1 mm deep over the crack at a speed (m/s). *held: whether there is a force 3 mm beyond it. */
+/* 1 mm deep over the crack at a speed (m/s). *held: 1 if there is a force 3 mm beyond it. */
 static int cross_crack(const failure_sink *sink, const char *series, double speed, int *held) {
     knurl_scene *scene = NULL;
     knurl_surface_id id;
@@ -100,9 +100,9 @@ int failure_contact_crack(const failure_sink *sink, double *number) {
     return !failed;
 }
 
-/* --- mixed winding that is not turned over --- */
+/* --- mixed winding that is not repaired --- */
 
-/* A flat sheet of 16 by 16 quads of 2.5 mm, of which each second triangle faces down, and one edge is split: a
+/* A flat sheet of 16 by 16 quads of 2.5 mm, of which every second triangle faces down, and one edge is split: a
  * T-junction. */
 static int add_mixed_sheet(knurl_scene *scene) {
     enum { CELLS = 16, TRIANGLES = 2 * CELLS * CELLS + 1 };
@@ -161,7 +161,7 @@ int failure_contact_winding(const failure_sink *sink, double *number) {
 
 #define RADIUS 0.03 /* m */
 
-/* `count` spheres of 96 by 48 quads, one 10 um beside the other. */
+/* `count` spheres of 96 by 48 quads, 10 um apart. */
 static int add_spheres(knurl_scene *scene, int count, double radius, double amplitude) {
     enum { ROUND = 96, DOWN = 48 };
     float *p = malloc(3 * (ROUND + 1) * (DOWN + 1) * sizeof *p);
@@ -243,8 +243,8 @@ int failure_contact_visits(const failure_sink *sink, double *number) {
 
 #define HEIGHT 0.004 /* m: of the HIP above the floor */
 
-/* A lid comes down on a floor at 100 mm/s, over a HIP that stays where it is. The lid is turned by an angle (rad) about
- * its lower edge. *most: N; *squeezed: whether the HIP was. */
+/* A lid comes down on a floor at 100 mm/s, over a HIP that does not move. The lid is turned by an angle (rad) about
+ * its lower edge. *most: N; *squeezed: 1 if the HIP was squeezed. */
 static int close_over(const failure_sink *sink, double angle, double *most, int *squeezed) {
     knurl_scene *scene = NULL;
     knurl_surface_id floor, lid;
@@ -272,7 +272,7 @@ int failure_contact_squeezed(const failure_sink *sink, double *number) {
     return !close_over(sink, 0.0, number, &squeezed) && squeezed;
 }
 
-/* Which angle pushes out, in steps of 0.1 degrees. */
+/* Finds the angle that pushes the HIP out, in steps of 0.1 degrees. */
 int failure_contact_wedge(const failure_sink *sink, double *number) {
     const failure_sink nowhere = {NULL, sink->id};
     double most;

@@ -1,4 +1,4 @@
-/* What the catalogue's rows measure and draw with. SPDX-License-Identifier: MIT */
+/* Measuring and drawing, shared by the catalogue's rows. SPDX-License-Identifier: MIT */
 #include "failures.h"
 #include "gratings.h"
 #include "out.h"

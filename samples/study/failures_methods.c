@@ -1,4 +1,4 @@
-/* Where S1 and S2 fail, at 1 kHz with everything else ideal. SPDX-License-Identifier: MIT */
+/* Failures of S1 and S2, at 1 kHz with everything else ideal. SPDX-License-Identifier: MIT */
 #include "failures.h"
 #include "gratings.h"
 #include "steady.h"
@@ -56,7 +56,7 @@ int failure_s1_felt(const failure_sink *sink, double *number) {
 
 /* A second at 10 kHz and 10 mm/s over ridges of 0.5 mm, in counts. */
 int failure_s1_counts(const failure_sink *sink, double *number) {
-    enum { TICKS = 11000 }; /* 11 ridges are 100 counts: twice that */
+    enum { TICKS = 11000 }; /* 22 ridges: 11 are 100 counts */
     const knurl_grating grating = {
         .spatial_frequency = {2000.0, 0.0}, .amplitude = 1.0, .update_rate_hz = 10000.0, .method = KNURL_METHOD_S1};
     study_motion *motion = calloc(TICKS, sizeof *motion);
@@ -81,7 +81,7 @@ int failure_s1_counts(const failure_sink *sink, double *number) {
     return 1;
 }
 
-/* Through the cells' centres, where neither cosine's sign changes alone. */
+/* Through the cells' centres, at which the signs of both cosines change together. */
 int failure_s1_diagonal(const failure_sink *sink, double *number) {
     const knurl_grating grating = gratings_make(KNURL_METHOD_S1, 1000.0, 1000.0);
     const double from[2] = {0.0, 0.0};
@@ -96,7 +96,7 @@ int failure_s1_diagonal(const failure_sink *sink, double *number) {
     return 1;
 }
 
-/* Two edges in one tick are none. */
+/* Two edges in one tick cancel. */
 int failure_s1_grid(const failure_sink *sink, double *number) {
     static const double start[2] = {FAILURE_START, 0.0};
     const knurl_grating grating = gratings_make(KNURL_METHOD_S1, 1000.0, 1000.0);
@@ -204,7 +204,7 @@ int failure_s2_outlives(const failure_sink *sink, double *number) {
     return 1;
 }
 
-/* Eq. 9 cuts the troughs off: at no depth only the crests are left. */
+/* Eq. 9 cuts the troughs off: at zero depth only the crests are left. */
 int failure_grazed(const failure_sink *sink, double *number) {
     study_scan scan;
     if (!failure_across(KNURL_METHOD_S2, 1000.0 / 3.0, 300, &scan)) {

@@ -1,4 +1,4 @@
-/* Where velocity estimators fail. SPDX-License-Identifier: MIT */
+/* Failures of velocity estimators. SPDX-License-Identifier: MIT */
 #include "failures.h"
 #include "gratings.h"
 
@@ -10,7 +10,7 @@ static double quantise(double x) {
     return floor(x / RESOLUTION + 0.5) * RESOLUTION;
 }
 
-/* A steady 100 mm/s: the largest f_t that first differences call for on ridges of 1 mm, less the least. */
+/* A steady 100 mm/s: the largest f_t from first differences on ridges of 1 mm, less the smallest. */
 int failure_difference(const failure_sink *sink, double *number) {
     knurl_velocity estimator;
     double least = HUGE_VAL;

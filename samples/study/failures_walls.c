@@ -1,4 +1,4 @@
-/* Where walls fail, whatever is rendered on them, in the laboratory: runaways, delay, quantisation, what motors can do.
+/* Failures of walls, with any texture, in the laboratory: runaways, delay, quantisation, limits of motors.
  * SPDX-License-Identifier: MIT */
 #include "failures.h"
 #include "stability.h"
@@ -16,7 +16,7 @@ static void draw_depths(const failure_sink *sink, const char *series, const lab_
     }
 }
 
-/* A case, raw, and with the default protections beside it. */
+/* Runs a case raw, and with the default protections. */
 static int run_raw(const failure_sink *sink, lab_case *c, lab_result *result) {
     lab_signals signals;
     lab_result guarded;
@@ -65,7 +65,7 @@ int failure_wall_delay(const failure_sink *sink, double *number) {
     return critical[0] > 0.0 && critical[1] > 0.0;
 }
 
-/* No dry friction holds it between two of the wall's force levels: beta = 2 is passive, sigma = 0.1. */
+/* Dry friction is too small to hold it between two of the wall's force levels: beta = 2 is passive, sigma = 0.1. */
 int failure_wall_quantised(const failure_sink *sink, double *number) {
     lab_signals signals;
     lab_result result;
@@ -96,8 +96,8 @@ static int make_wall(const knurl_material_desc *material, uint32_t without, knur
            knurl_scene_configure_hip(*scene, 0, &hip) || knurl_scene_commit(*scene);
 }
 
-/* Experiment 3 as printed: K = 0.7 N/mm, A = 2.7 mm on a Touch: 2 K A is 3.78 N. S1 over ridges of 1 mm at 250 Hz, two
- * ticks up and two down, pressed A deep, so that both halves are in contact. */
+/* Experiment 3 as in the paper: K = 0.7 N/mm, A = 2.7 mm on a Touch: 2 K A is 3.78 N. S1 over ridges of 1 mm at 250 Hz,
+ * two ticks up and two down, pressed A deep, so that both halves are in contact. */
 int failure_force_limit(const failure_sink *sink, double *number) {
     enum { TICKS = 400 };
     knurl_scene *scene = NULL;
@@ -129,7 +129,7 @@ int failure_force_limit(const failure_sink *sink, double *number) {
     return made;
 }
 
-/* A HIP pressed in with 2 N for ever. */
+/* A HIP pressed in with 2 N without end. */
 int failure_heat(const failure_sink *sink, double *number) {
     enum { TICKS = 40000 };
     knurl_scene *scene = NULL;

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Draws a study: the JSON and CSV that `knurl study NAME --out DIR` wrote, as one picture.
 
-The study's name is the JSON's. A figure is a function of the JSON (as a dict) and of its folder, where the CSV is;
-the files figures_*.py hold those that are not here.
+The study's name is the JSON's. A figure is a function of the JSON (as a dict) and of its folder, which has the CSV;
+further figures are in figures_*.py.
 
 SPDX-License-Identifier: MIT
 """
@@ -33,7 +33,7 @@ IDEAL = 4 / np.pi  # the fundamental of a square wave of amplitude 1
 
 
 def step(ax, values, colour, fill=True, **style):
-    """A held signal, a value a tick."""
+    """A held signal, one value per tick."""
     t = np.arange(len(values) + 1)
     held = np.append(values, values[-1])
     if fill:
@@ -42,7 +42,7 @@ def step(ax, values, colour, fill=True, **style):
 
 
 def bare(ax, ticks, low=-2.35, high=1.75):
-    """A signal's frame: zero, and a mark at the amplitude either side."""
+    """A signal's frame: zero, and marks at plus and minus the amplitude."""
     ax.set(xlim=(0, ticks), ylim=(low, high), xticks=[], yticks=[-1, 0, 1], yticklabels=[])
     ax.tick_params(length=2)
     ax.axhline(0, color=RULE, lw=0.8, zorder=0)
@@ -124,7 +124,7 @@ GAP = "#f3c6ac"
 
 
 def draw_line(ax, table, rate, name, weber, y, height):
-    """One set of frequencies at one Weber fraction: where the next one is within the JND, and where it is not."""
+    """One set of frequencies at one Weber fraction: within the JND of the next one, and not."""
     pick = (table["update_rate_hz"] == rate) & (table["set"] == name) & (table["weber"] == weber)
     f, neighbour, high = table["frequency_hz"][pick], table["neighbour_hz"][pick], table["band_high_hz"][pick]
     top = np.where(np.isfinite(neighbour), np.minimum(neighbour, high), f)
@@ -133,7 +133,7 @@ def draw_line(ax, table, rate, name, weber, y, height):
         if gap:
             ax.fill_between([up, above], y - height, y + height, color=GAP, lw=0)
             ax.fill_between([up, max(up, above / (1 + weber))], y - height, y + height, color=ASKED, lw=0)
-    if weber > 0.3:  # above the top one, what is still felt as it
+    if weber > 0.3:  # above the top one, the range that feels the same
         ax.fill_between([f[-1], f[-1] * (1 + weber)], y - height, y + height, facecolor="none", edgecolor=SOFT,
                         hatch="/////", lw=0)
     kinds = table["kind"][pick]
@@ -193,14 +193,14 @@ def draw_coverage(data, folder):
 
 
 def curve(ax, table, method, column, scale=1.0, **style):
-    """Dots at the paper's periods; to 10 ms a thin line through the tenths of a millisecond between them."""
+    """Dots at the paper's periods; up to 10 ms a thin line through the tenths of a millisecond in between."""
     pick = table["method"] == method
     x, y, paper = table["period_ms"][pick], table[column][pick] * scale, table["papers_grid"][pick] > 0
     ax.plot(x[x <= DENSE_MS], y[x <= DENSE_MS], color=METHODS[method], lw=0.6, alpha=0.45, zorder=1)
     ax.plot(x[paper], y[paper], MARKS[method], color=METHODS[method], ms=4, mew=0, zorder=3, **style)
 
 
-DENSE_MS = 10  # beyond it lines through tenths of a millisecond are a blot
+DENSE_MS = 10  # above it, lines through tenths of a millisecond are too dense
 MARKS = {"T1": "s", "T2": "D", "T3": "o"}
 
 
@@ -227,7 +227,7 @@ def draw_pcc(ax, table):
 
 
 def draw_window(ax, table):
-    """Amplitude over the paper's window against ours: what falls away is leakage."""
+    """Amplitude over the paper's window against ours: the difference is leakage."""
     for method in TEMPORAL:
         pick = (table["method"] == method) & (table["papers_grid"] > 0)
         x, ours, window = (table[c][pick] for c in ("period_ms", "dominant_amplitude", "window_dominant_amplitude"))
@@ -283,7 +283,7 @@ FIGURES = {"signals": draw_signals, "coverage": draw_coverage, "temporal": draw_
 
 
 def all_figures():
-    """Those of the files beside this one too."""
+    """Including those of figures_*.py."""
     figures = dict(FIGURES)
     for path in sorted(glob.glob(os.path.join(os.path.dirname(os.path.abspath(__file__)), "figures_*.py"))):
         figures.update(importlib.import_module(os.path.splitext(os.path.basename(path))[0]).FIGURES)

@@ -1,4 +1,4 @@
-"""What a tick takes against triangles: the JSON of `knurl bench --json`, kept as bench.json; and release by release.
+"""The time of a tick against triangles: the JSON of `knurl bench --json`, kept as bench.json; and by release.
 Drawn by figures.py.
 
 SPDX-License-Identifier: MIT
@@ -16,16 +16,16 @@ from style import ACCENT, GREY, INK, PALE, RULE, SOFT, heading, open_input, say
 MESHES = ("mesh_1k", "mesh_10k", "mesh_100k", "mesh_1m")
 FEELS = (("", "with grating", ACCENT, "o"), ("_smooth", "smooth", SOFT, "s"),
          ("_friction", "grating and friction", INK, "D"))
-PLACES = {"plane": 4, "moving": 25, "surfaces_10k": 160}  # where the log axis has scenes that are no single mesh
-# CHAI3D 3.3 at -O3 -march=native, measured in November 2026 on 2 vCPUs AMD EPYC (Zen 4), shared, in one process with
-# Knurl and in turns with it, 5 to 7 rounds, on the same sheets with the same stroke. Triangles (a plane: 2), then ns: its
-# fastest textured path (cAlgorithmFingerProxy::computeForces() alone), then what its examples do each tick.
+PLACES = {"plane": 4, "moving": 25, "surfaces_10k": 160}  # axis positions of scenes that are not one mesh
+# CHAI3D 3.3 at -O3 -march=native, measured in November 2026 on 2 shared vCPUs AMD EPYC (Zen 4), in one process with
+# Knurl and in turns with it, 5 to 7 rounds, on the same sheets with the same stroke. Triangles (a plane: 2), then ns:
+# its fastest textured path (cAlgorithmFingerProxy::computeForces() alone), then the calls of its examples in each tick.
 CHAI3D_MEDIAN = ((4, 242, 661), (1e3, 506, 928), (1e4, 595, 1034), (1e5, 1479, 2111), (1e6, 3989, 4478))
 CHAI3D_PACED_MEDIAN = ((4, 2600, 5400), (1e3, 5000, 8800), (1e5, 9400, 12100), (1e6, 24000, 27000))
-CHAI3D_PACED_P99 = ((4, 5900), (1e3, 9800), (1e5, 36000), (1e6, 284000))  # its fastest path; no p99 was kept of the other
+CHAI3D_PACED_P99 = ((4, 5900), (1e3, 9800), (1e5, 36000), (1e6, 284000))  # its fastest path; the other's p99 was not kept
 
 def band(ax, points, label, **style):
-    """From the fastest path, a line, to the other."""
+    """A line from the fastest path to the other."""
     x, low, *high = zip(*points)
     if high:
         ax.fill_between(x, low, high[0], color=RULE, alpha=0.55, lw=0, zorder=1)
@@ -120,7 +120,7 @@ HISTORY = ("plane", "mesh_1k", "mesh_10k", "mesh_100k", "mesh_1m", "surfaces_10k
 
 
 def draw_history(data, folder):
-    """Each release's results, a file each, in the order in which they came."""
+    """The results of each release, one file each, in order of release."""
     results = []
     for name in data["releases"]:
         with open_input(os.path.join(folder, f"{name}.json")) as file:
@@ -137,7 +137,7 @@ def draw_history(data, folder):
             ax.plot(*zip(*points), marker="o", ms=4, mew=0, lw=1.4, color=ACCENT if paced_row else INK)
             labels.append((points[-1][1], f"{name.replace('_', ' ')}  {number(points[-1][1])}"))
         y = 0.0
-        for at, text in sorted(labels):  # each a line's height above the one below it
+        for at, text in sorted(labels):  # each one line above the one below it
             y = max(at, 1.13 * y)
             say(ax, text, len(results) - 1, y, "left", "center", 8, INK, 8, 0, "data")
         ax.set(yscale="log", xlim=(-0.2, len(results) - 0.1), title=title)

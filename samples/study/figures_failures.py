@@ -1,4 +1,4 @@
-"""The catalogue of failures: study `failures`, a trace each. Drawn by figures.py.
+"""The catalogue of failures: study `failures`, one trace each. Drawn by figures.py.
 
 SPDX-License-Identifier: MIT
 """
@@ -13,7 +13,8 @@ from style import ACCENT, ASKED, GREY, INK, METHODS, RULE, heading, open_input
 
 COLUMNS = 3
 COLOURS = {"velocity": "#4f6d8a", "wall": "#7c2f0d", "contact": "#3d6b4f"}
-SMOOTH = {"s2_freezes", "s2_loses_step", "wall_runaway", "wall_delay", "contact_crowd", "contact_wedge"}  # what is not held from tick to tick
+# Signals that are not held from tick to tick.
+SMOOTH = {"s2_freezes", "s2_loses_step", "wall_runaway", "wall_delay", "contact_crowd", "contact_wedge"}
 
 
 def read_traces(folder, table):
@@ -28,7 +29,7 @@ def read_traces(folder, table):
 
 
 def draw_surface(ax, t, cycle):
-    """What a surface of ridges would be, between the ticks as well."""
+    """The true surface of ridges, also between ticks."""
     fine = np.linspace(t[0], t[-1] + (t[1] - t[0]), 4001)[:-1]
     at = np.interp(fine, np.append(t, 2 * t[-1] - t[-2]), np.append(cycle, 2 * cycle[-1] - cycle[-2]))
     ax.plot(fine, np.where(at % 1 < 0.5, 1, -1), color=GREY, lw=0.7, ls=(0, (2, 2)), label="the surface")

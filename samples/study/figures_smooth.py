@@ -1,4 +1,4 @@
-"""A low-poly ring, felt as its triangles and as it looks: study `smooth`. Drawn by figures.py.
+"""A low-poly ring, felt as triangles and as smooth as it looks: study `smooth`. Drawn by figures.py.
 
 SPDX-License-Identifier: MIT
 """

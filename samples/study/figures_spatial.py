@@ -85,7 +85,7 @@ def draw_others(ax, data):
         fitted = fixture is data["fixtures"][0]
         ax.plot(fixture["period_ticks"], values(fixture["T3"]["dominant"]), color=METHODS["T3"] if fitted else GREY,
                 lw=1.4 if fitted else 1.0, ls="-" if fitted else "--")
-    for fixture in data["fixtures"][1:]: # named at its peak
+    for fixture in data["fixtures"][1:]: # labelled at its peak
         k = int(np.argmax(values(fixture["T3"]["dominant"])))
         say(ax, f"{fixture['resonance_hz']:.0f} Hz", fixture["period_ticks"][k], fixture["T3"]["dominant"][k], va="bottom", dx=-4, dy=2,
             within="data")
@@ -285,7 +285,7 @@ LABELS = {"net_force_n": "net force (N)", "spurious_n": "spurious (N rms)", "spu
 
 
 def draw_cells(ax, experiment):
-    """Figure 8: a row each of intensity and sound, a column a period."""
+    """Figure 8: one row per intensity and sound, one column per period."""
     cells = experiment["cells"]
     period, amplitude = np.array(cells["period_ticks"]), np.array(cells["amplitude"])
     sound, preferred = np.array(cells["sound"]), np.array(cells["preferred"])
@@ -305,7 +305,7 @@ def draw_cells(ax, experiment):
 
 
 def is_bare(experiment, key):
-    """Whether a metric has one value, or all but one: no scatter to be drawn."""
+    """True if a metric has fewer than three values: then a scatter is not drawn."""
     return len(np.unique(np.round(values(experiment["cells"][key]), 9))) < 3
 
 
@@ -318,7 +318,7 @@ def bare_words(experiment, key, pair):
 
 
 def draw_metric(ax, experiment, key, label):
-    """Cells by metric: preferred above, the others below, those with sound a little higher."""
+    """Cells by metric: preferred ones above, others below, those with sound a little higher."""
     cells = experiment["cells"]
     x, sound, preferred = np.round(values(cells[key]), 12) + 0.0, np.array(cells["sound"]), np.array(cells["preferred"])
     y = preferred + 0.16 * (sound - 0.5) * 2

@@ -1,4 +1,4 @@
-"""Which method, at which rate, what does it cost, what is felt that is not the ridges': one panel of study `tradeoff`.
+"""Cost and felt false tones of each method at each rate: one panel of study `tradeoff`.
 Drawn by figures.py.
 
 SPDX-License-Identifier: MIT
@@ -9,14 +9,14 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 from style import HALO, INK, METHODS, read_table
 
 ABOUT = {"S1": "the surface at a point", "S2": "events, by the speed", "bandlimited": "the harmonics that fit"}
-# Of names: the point beside which they stand, how far from it (in points), and on which side.
+# Of labels: the point, the offset from it (in points), and the side.
 PLACES = {"S1": (1, -44, -28, "left"), "S2": (3, 14, 34, "left"), "bandlimited": (1, 16, 20, "left")}
 LOW, HIGH = 0.00003, 1.7
 
 
 def lines(table, column):
-    """{(method, velocity): [(millions of instructions a second, error, kHz)]}, the worse of the ridges' errors, of what
-    real encoders give."""
+    """{(method, velocity): [(millions of instructions a second, error, kHz)]}, the worse error of both ridges, with
+    real encoders."""
     found = {}
     for row, method in enumerate(table["method"]):
         if table["positions"][row] == "0.055mm" and table["velocity"][row] != "ideal":
@@ -28,7 +28,7 @@ def lines(table, column):
 
 
 def others(table, method):
-    """A method's other errors at 1 kHz from 0.055 mm counts by FOAW, the worse of the ridges'."""
+    """A method's other errors at 1 kHz from 0.055 mm counts by FOAW, the worse of both ridges."""
     rows = [row for row, name in enumerate(table["method"])
             if name == method and table["rate_hz"][row] == 1000 and table["positions"][row] == "0.055mm"
             and table["velocity"][row] in ("none", "foaw")]

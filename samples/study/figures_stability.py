@@ -16,7 +16,7 @@ ABOUT = {"rest": "rest: nothing felt", "vibration": "vibration, as the texture a
          "limit cycle: felt beyond that", "unstable": "unstable: a runaway"}
 COLOURS = ListedColormap(list(OUTCOMES.values()))
 NORM = BoundaryNorm(np.arange(5) - 0.5, 4)
-# The presets' numbers that bounds are drawn from: b, fc, Delta, delay in ticks, the maker's stiffness.
+# The presets' numbers for drawing bounds: b, fc, Delta, delay in ticks, the maker's stiffness.
 DEVICES = {"Touch": (0.5, 0.26, 55e-6, 1, 1020), "Falcon": (1.5, 0.5, 60e-6, 2, 3000)}
 AXES = {"damping": "device's damping b (N s/m)", "wall damping": "wall's damping B (N s/m)", "delay": "delay (ticks)",
         "rate": "update rate (Hz)"}
@@ -31,7 +31,7 @@ def edges(values, logarithmic):
 
 
 def draw_map(ax, table, pick, scale=1.0):
-    """The outcomes of one map as cells, both axes as the study spaced them."""
+    """The outcomes of one map as cells, with the study's spacing of both axes."""
     x, y = np.unique(table["x"][pick]), np.unique(table["y"][pick])
     code = np.array([list(OUTCOMES).index(o) for o in table["outcome"][pick]]).reshape(len(y), len(x))
     linear = np.allclose(np.diff(x), x[1] - x[0])
@@ -123,7 +123,7 @@ def draw_stopped(ax, table, raw, protected, scale):
 
 
 def draw_methods(data, folder, amplitudes):
-    """Only those devices and grips of which anything runs away; the others are calm."""
+    """Only devices and grips with a runaway; the others are calm."""
     table = read_table(folder, data["table"])
     methods = list(dict.fromkeys(table["method"]))
     every = list(dict.fromkeys(zip(table["label"], table["grip"])))

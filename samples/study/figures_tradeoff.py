@@ -1,4 +1,4 @@
-"""Every point of cost against accuracy, a panel an error: study `tradeoff`. Drawn by figures.py.
+"""Every point of cost against accuracy, one panel per error: study `tradeoff`. Drawn by figures.py.
 
 SPDX-License-Identifier: MIT
 """
@@ -11,10 +11,10 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
 from style import GREY, INK, METHODS, open_input
 
-OTHERS = ["#3a3a3a"]  # methods that style.py has no colour for yet
+OTHERS = ["#3a3a3a"]  # for methods without a colour in style.py
 MARKERS = {"none": "o", "ideal": "D", "difference": "v", "lowpass": "^", "foaw": "s"}
 SIZES = {1000.0: 26, 2000.0: 48, 5000.0: 80, 10000.0: 125}
-FLOOR = 1e-4  # what is smaller, and 0, is drawn here
+FLOOR = 1e-4  # smaller values and 0 are drawn here
 PANELS = [("mean_worst", "net force, worst (A)", "what stays over whole cycles"),
           ("frequency", "frequency error, mean", "strongest line against what the motion asks for"),
           ("false_worst", "false tones, worst", "of the power, farther than {near} from what is the ridges'"),
@@ -23,7 +23,7 @@ PANELS = [("mean_worst", "net force, worst (A)", "what stays over whole cycles")
 
 
 def read(folder, table):
-    """The rows, each with the worse of its ridges' errors."""
+    """The rows, each with the worse error of both ridges."""
     text = {"method", "velocity", "positions"}
     found = {}
     with open_input(os.path.join(folder, table), newline="") as stream:

@@ -1,4 +1,4 @@
-"""What becomes of an event when something changes in it: study `transitions`. Drawn by figures.py.
+"""Events that are interrupted by a change: study `transitions`. Drawn by figures.py.
 
 SPDX-License-Identifier: MIT
 """

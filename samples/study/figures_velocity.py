@@ -1,4 +1,4 @@
-"""The chart that chooses the velocity estimator: study `velocity`. Drawn by figures.py.
+"""The chart behind the choice of the velocity estimator: study `velocity`. Drawn by figures.py.
 
 SPDX-License-Identifier: MIT
 """
@@ -9,7 +9,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from style import ACCENT, ASKED, GREY, INK, RULE, heading, read_table, say
 
-COLUMNS = [(0.055, 1000), (0.055, 10000)]  # a Touch's; the CSV has 0.01 mm and 2, 5 kHz too
+COLUMNS = [(0.055, 1000), (0.055, 10000)]  # a Touch; the CSV also has 0.01 mm and 2, 5 kHz
 # estimator: colour, width, dashes, above the others
 LINES = {"difference": (GREY, 1.2, (0, (1, 1.2)), 2), "low pass, 20 Hz": ("#b9962f", 1.4, "-", 3),
          "FOAW as published": (ASKED, 1.4, (0, (4, 1.5)), 4), "FOAW": (ACCENT, 2.2, "-", 5)}

@@ -5,10 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define PI         3.141592653589793
-#define ROUNDING   1e-9 /* of a cycle: sums of a million ticks stay well within */
-#define IMAGES     10   /* update rates that the held spectrum is summed to: 99 % of a square wave's images */
-#define MIX_CYCLES 2.4  /* 6 ticks of 2.5 ticks a cycle */
+#define PI       3.141592653589793
+#define ROUNDING 1e-9 /* of a cycle: sums of a million ticks stay well within */
+#define IMAGES                                                                                                         \
+    10 /* multiples of the update rate up to which the held spectrum is summed: 99 % of a square wave's images */
+#define MIX_CYCLES 2.4 /* 6 ticks of 2.5 ticks a cycle */
 
 double study_event_cycles(const knurl_vibration_event *event) {
     return event->kind == KNURL_EVENT_MIXED ? MIX_CYCLES : 1.0;
@@ -53,7 +54,7 @@ void study_scan_free(study_scan *scan) {
     memset(scan, 0, sizeof *scan);
 }
 
-/* 1 where the height has another sign than the last that was not 0. */
+/* 1 if the height's sign differs from that of the last height other than 0. */
 static int turns(double height, double *last) {
     const int turned = height * *last < 0.0;
     *last = height != 0.0 ? height : *last;
@@ -127,15 +128,15 @@ double study_scan_phase_error(const study_scan *scan) {
     return worst;
 }
 
-/* What is felt: from the begin of half cycle `half` on. */
+/* State of the felt half cycles; the present one starts at half cycle `half`. */
 typedef struct felt {
     double half;   /* counted in the direction of motion; even: high */
     double sign;   /* of the height */
-    double cycles; /* of the event that the latest tick was in; 0: of none */
-    int begun;     /* the count has begun */
+    double cycles; /* of the last tick's event; 0: no event */
+    int begun;     /* the count has started */
 } felt;
 
-/* One tick of an event; returns how far it is out. */
+/* Counts one tick of an event; returns its phase error. */
 static double feel_event(felt *f, double within, double cycles, double phase) {
     if (within == 0.0) {
         if (!f->begun) {
@@ -149,7 +150,7 @@ static double feel_event(felt *f, double within, double cycles, double phase) {
     return f->begun ? fabs(0.5 * f->half + within * cycles - phase) : 0.0;
 }
 
-/* One tick without an event. Returns how far the phase is from the half that is felt. */
+/* Counts one tick without an event. Returns the distance of the phase from the felt half cycle. */
 static double feel_half(felt *f, double sign, double phase) {
     const double odd = sign < 0.0 ? 1.0 : 0.0;
     if (sign == 0.0) {
@@ -158,7 +159,7 @@ static double feel_half(felt *f, double sign, double phase) {
     if (!f->begun) { /* the middle of a half: (half + 0.5) / 2 */
         f->half = 2.0 * floor(phase - 0.5 * odd + 0.25) + odd;
     } else if (f->cycles > 0.0) {
-        f->half += 2.0 * f->cycles - odd; /* the next cycle begins, or the event's second half goes on */
+        f->half += 2.0 * f->cycles - odd; /* the next cycle starts, or the event's second half continues */
     } else if (sign != f->sign) {
         f->half += 1.0;
     }
@@ -167,7 +168,7 @@ static double feel_half(felt *f, double sign, double phase) {
     return fmax(0.0, fmax(0.5 * f->half - phase, phase - 0.5 * (f->half + 1.0)));
 }
 
-/* Tick k of a scan, its phase ahead in the direction of motion; `first`: where the first cycle began, NaN before. */
+/* Tick k of a scan, its phase ahead in the direction of motion; `first`: start of the first cycle, NaN before. */
 static void take_step(const study_scan *scan, size_t k, double ahead, felt *f, double first[2], study_step *step) {
     const double sign = scan->height[k] > 0.0 ? 1.0 : scan->height[k] < 0.0 ? -1.0 : 0.0;
     const double half = f->half;
@@ -217,13 +218,13 @@ double study_scan_dropout(const study_scan *scan) {
     for (size_t k = 0; k <= scan->ticks; k++) {
         const double at = 2.0 * scan->crossed[k] + ROUNDING;
         while (at >= next + 2.0) {
-            /* what begins at this very tick comes too late for it */
+            /* a half cycle that starts at this tick is too late for it */
             dropped += 1.0;
             next += 1.0;
         }
         while (2.0 * scan->played[k] + ROUNDING >= passed + 1.0) {
             passed += 1.0;
-            next += at >= next - 1.0 ? 1.0 : 0.0; /* else it is one too many */
+            next += at >= next - 1.0 ? 1.0 : 0.0; /* otherwise it is one too many */
         }
     }
     return next > 0.0 ? dropped / next : NAN;
@@ -256,7 +257,7 @@ double study_scan_push(const study_scan *scan, double frequency, double seconds)
     }
 }
 
-/* The windowed height without its windowed mean. Returns its power, 0 where it does not vary. */
+/* The windowed height without its windowed mean. Returns its power, 0 if it is constant. */
 static double windowed(const study_scan *scan, double *values) {
     const double n = (double)scan->ticks;
     double sum = 0.0;
@@ -292,7 +293,7 @@ static void spectrum(const double *values, size_t n, const double *cosines, doub
     }
 }
 
-/* The share of lines that are far from every odd multiple. powers: lines 0 to n/2 of n. */
+/* The share of power in lines that are far from every odd multiple. powers: lines 0 to n/2 of n. */
 static double far_share(const double *powers, size_t n, double cycles, double tolerance) {
     double all = 0.0;
     double far = 0.0;

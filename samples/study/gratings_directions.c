@@ -10,7 +10,7 @@
 
 static const double gratings[2][2] = {{1000.0, 500.0}, {1000.0, 1000.0}};
 
-/* A start inside a cell where no straight scan of this study meets a corner. In cycles. */
+/* A start inside a cell from which no straight scan of this study meets a corner. In cycles. */
 static const double generic_start[2] = {0.137, 0.071};
 
 typedef struct direction_row {
@@ -31,7 +31,7 @@ static double s1_played(const double fs[2], const double start[2], const double 
     return played;
 }
 
-/* All angles of a grating, the diagonal in its place. 0: no memory. */
+/* All angles of a grating, including the diagonal. 0: out of memory. */
 static int direction_rows(const double fs[2], direction_row rows[ANGLES]) {
     static const double centre[2] = {0.0, 0.0};
     const double diagonal = atan2(fs[0], fs[1]) / DEGREE;
@@ -42,7 +42,7 @@ static int direction_rows(const double fs[2], direction_row rows[ANGLES]) {
         direction_row *row = &rows[i];
         row->angle = on_diagonal ? diagonal : next;
         after |= on_diagonal;
-        /* on the diagonal both phases are to be the same number, not the same but for rounding */
+        /* on the diagonal both phases must be exactly equal, without rounding */
         const double length = hypot(fs[0], fs[1]);
         const double c = on_diagonal ? fs[1] / length : cos(row->angle * DEGREE);
         const double s = on_diagonal ? fs[0] / length : sin(row->angle * DEGREE);

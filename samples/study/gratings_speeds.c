@@ -14,7 +14,7 @@
 
 static const double start[2] = {0.000137, 0.0};
 
-/* 1 s straight across at temporal frequency f_t. 0: no memory. */
+/* 1 s straight across at temporal frequency f_t. 0: out of memory. */
 static int across(int32_t method, double f_t, size_t ticks, study_scan *scan) {
     const knurl_grating grating = gratings_make(method, LINE_FS, 0.0);
     const double velocity[2] = {f_t / LINE_FS, 0.0};
@@ -36,7 +36,7 @@ static int sweep(int32_t method, double first, double step, size_t count, double
     return 1;
 }
 
-/* The drift at a period, from an integer number of events. 2: no memory, which no drift is */
+/* The drift at a period, from an integer number of events. 2, which is no possible drift: out of memory */
 static double drift_at(double period_ticks) {
     study_scan scan;
     if (!across(KNURL_METHOD_S2, GRATINGS_RATE / period_ticks, 12000, &scan)) {
@@ -82,7 +82,7 @@ int gratings_speeds(json_writer *json, gratings_summary *summary) {
     return summary->drift_before < 2.0 && summary->drift_at < 2.0;
 }
 
-/* Forward along x at a speed that changes; positions add up exactly what the velocities cross. */
+/* Forward along x at a speed that changes; positions are the exact sums of the velocities. */
 static void move(double (*speed)(double t), study_motion *motion, size_t ticks) {
     double x = start[0];
     for (size_t k = 0; k < ticks; k++) {
@@ -117,7 +117,7 @@ static int freeze(json_writer *json, study_motion *motion, gratings_summary *sum
         }
         json_numbers(json, i == 0 ? "s1_played" : "s2_played", scan.played, STROKE_TICKS / 10, 10);
         if (i == 1) {
-            size_t k = 2; /* the first event begins here, at 1 mm/s: once a whole cycle is played it is over */
+            size_t k = 2; /* the first event starts here, at 1 mm/s, and ends after a whole cycle */
             while (k < STROKE_TICKS && scan.played[k] < 1.0 - 1e-9) {
                 k++;
             }

@@ -10,7 +10,7 @@
 #define LINE       0.0037 /* m: a y that no row of vertices lies on */
 #define MAX_EVENTS 16384
 
-/* A scan that goes on: what is summed of the event that plays, and all that have ended. */
+/* State of a scan: sums of the present event, and all ended events. */
 typedef struct scan {
     knurl_scene *scene;
     const wavy_sheet *sheet;
@@ -50,7 +50,7 @@ static knurl_result add_surface(knurl_scene *scene, const wavy_sheet *sheet, dou
     return knurl_scene_add_surface(scene, &d, &surface);
 }
 
-/* A HIP of no quantum, device axes the scene's; anew for every stroke. */
+/* A HIP without quantisation, device axes the scene's; new for every stroke. */
 static knurl_result reset_hip(knurl_scene *scene) {
     knurl_hip_desc d;
     knurl_workspace workspace;
@@ -58,12 +58,12 @@ static knurl_result reset_hip(knurl_scene *scene) {
     knurl_hip_desc_init(&d, sizeof d);
     d.update_rate_hz = HALF_CYCLES_RATE;
     d.resolution = 0.0;
-    d.protections = 0; /* strokes begin pressed in */
+    d.protections = 0; /* strokes start inside the wall */
     d.workspace = &workspace;
     return knurl_scene_configure_hip(scene, 0, &d);
 }
 
-/* Where the HIP is at x: d below the plane, the facets or the smooth sheet. */
+/* The HIP's position at x: d below the plane, the facets or the smooth sheet. */
 static void place(const scan *s, double x, double out[3]) {
     double normal[3] = {0.0, 0.0, 1.0};
     out[0] = x;
@@ -75,12 +75,13 @@ static void place(const scan *s, double x, double out[3]) {
     for (int axis = 0; axis < 3; axis++) {
         out[axis] -= HALF_CYCLES_DEPTH * normal[axis];
     }
-    for (int i = 0; i < 6 && s->surface == HALF_CYCLES_FACETS; i++) { /* slopes are small: each step leaves a 1/100 */
+    for (int i = 0; i < 6 && s->surface == HALF_CYCLES_FACETS;
+         i++) { /* slopes are small: each step reduces the error to 1/100 */
         out[2] -= HALF_CYCLES_DEPTH - wavy_sheet_distance(s->sheet, out, 0.25 * HALF_CYCLES_DEPTH);
     }
 }
 
-/* The event that has played to its end: its halves, and what Eqs. 5 and 7 make of its length. */
+/* Stores a completed event: its halves, and the expectation of Eqs. 5 and 7 for its length. */
 static void end_event(scan *s) {
     const int positive = (s->ticks + 1) / 2;
     const double tick = 1.0 / HALF_CYCLES_RATE;
@@ -99,7 +100,7 @@ static void end_event(scan *s) {
     s->count++;
 }
 
-/* One start phase; returns how many cycles were crossed while whole events played. */
+/* Strokes from one start phase; returns the cycles crossed during whole events. */
 static double stroke(scan *s, double start) {
     const int ticks = (int)(HALF_CYCLES_STROKE / s->speed * HALF_CYCLES_RATE);
     const size_t before = s->count;
@@ -126,7 +127,7 @@ static double stroke(scan *s, double start) {
             last_start = i;
         }
         const double *f = output.force;
-        const double size = sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]); /* frictionless: all of it is normal */
+        const double size = sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]); /* no friction: the force is all normal */
         if (s->ticks < (int)(sizeof s->forces / sizeof *s->forces)) {
             s->forces[s->ticks++] = size - HALF_CYCLES_STIFFNESS * HALF_CYCLES_DEPTH;
         }
@@ -141,7 +142,8 @@ static double median_half(const scan *s, double *room) {
     return quantile(room, 2 * s->count, 0.5);
 }
 
-/* Standard deviation over mean, of what an event gives (the mean of its halves), over `unit` where that is given. */
+/* Standard deviation over mean of the events' impulses (the mean of both halves), divided by `unit` unless that is
+ * null. */
 static double spread(const scan *s, const double *unit) {
     double sum = 0.0;
     double squares = 0.0;

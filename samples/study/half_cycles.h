@@ -21,25 +21,25 @@
 #define HALF_CYCLES_STIFFNESS 800.0  /* N/m */
 #define HALF_CYCLES_AMPLITUDE 0.0002 /* m */
 #define HALF_CYCLES_DEPTH     0.001  /* m: below the lowest trough, so that contact is never lost (Eq. 9) */
-#define HALF_CYCLES_STROKE    0.04   /* m a start phase */
+#define HALF_CYCLES_STROKE    0.04   /* m per start phase */
 #define HALF_CYCLES_PHASES    16
 
-/** What is scanned, and what "1 mm below" means on facets. */
+/** The scanned surface, and the meaning of "1 mm below" on facets. */
 enum {
     HALF_CYCLES_PLANE,  /**< flat */
     HALF_CYCLES_FACETS, /**< the sheet, the HIP at d from its facets: the grating alone is in the impulse */
-    HALF_CYCLES_CURVE   /**< the sheet, the HIP at d from the smooth sheet: the facets are felt as well */
+    HALF_CYCLES_CURVE   /**< the sheet, the HIP at d from the smooth sheet: the facets are felt, too */
 };
 
 typedef struct half_cycles {
-    double events;             /**< whole ones, over all start phases */
+    double events;             /**< whole events, over all start phases */
     double ticks_min;          /**< of an event */
     double ticks_max;          /**< of an event */
     double lost;               /**< share of events with a half below 10 % of the median half, or of the wrong sign */
     double cv;                 /**< spread of the impulse per event over its expectation */
     double raw_cv;             /**< spread of the impulse per event */
     double worst_half;         /**< largest |impulse of a half over its expectation - 1| */
-    double played_per_crossed; /**< events over cycles crossed: 1 in step */
+    double played_per_crossed; /**< events over cycles crossed: 1: in step */
 } half_cycles;
 
 /** Scans along x at `speed` (m/s) over a grating of `period` (m). sheet: null for HALF_CYCLES_PLANE. 0, or 1 with the

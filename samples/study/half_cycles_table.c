@@ -9,7 +9,7 @@
 #define PERIODS 3
 
 static const double periods[PERIODS] = {0.001, 0.002, 0.004};
-static const double speeds[SPEEDS] = {0.049, 0.099, 0.247}; /* at which CHAI3D was measured */
+static const double speeds[SPEEDS] = {0.049, 0.099, 0.247}; /* the speeds at which CHAI3D was measured */
 
 static const struct {
     const char *name;

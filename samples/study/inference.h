@@ -1,4 +1,4 @@
-/* From counts of preferences to conclusions: intervals, and how many subjects an experiment needs.
+/* From counts of preferences to conclusions: intervals, and the number of subjects that an experiment needs.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_STUDY_INFERENCE_H
 #define KNURL_STUDY_INFERENCE_H
@@ -8,12 +8,12 @@
 /** P(m or more of n), each with probability p. */
 double binomial_tail(uint32_t n, uint32_t m, double p);
 
-/** The exact (Clopper-Pearson) interval of a share of which m of n were seen; confidence such as 0.95. */
+/** The exact (Clopper-Pearson) interval of a share, from m of n observations; confidence such as 0.95. */
 void binomial_interval(uint32_t n, uint32_t m, double confidence, double interval[2]);
 
 /** A model of subjects who answer `repetitions` (1 to 100) trials each. */
 typedef struct preference_model {
-    double share;       /**< 0 to 1: how often the second method is preferred, over all subjects */
+    double share;       /**< 0 to 1: the share of answers for the second method, over all subjects */
     double correlation; /**< 0 to below 1: between two answers of a subject (beta-binomial): 0 if all subjects are
                            alike, near 1 if each has an opinion that never changes */
     uint32_t repetitions;
@@ -23,11 +23,11 @@ typedef struct preference_model {
  * trials; [2]: neither. */
 void preference_majority(const preference_model *model, double outcome[3]);
 
-/** The probability that Eq. 14's two-sided tail over the subjects' majorities, without those that have none, finds the
- * second method preferred at `significance`. subjects: at most 200. */
+/** The probability that Eq. 14's two-sided tail over the subjects' majorities, without subjects that have none, finds
+ * the second method preferred at `significance`. subjects: at most 200. */
 double preference_power(const preference_model *model, uint32_t subjects, double significance);
 
-/** The least number of subjects from which on the power is never below `power`; 0: more than 200. */
+/** The smallest number of subjects from which on the power is never below `power`; 0: more than 200. */
 uint32_t preference_subjects(const preference_model *model, double significance, double power);
 
 #endif

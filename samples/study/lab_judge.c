@@ -10,18 +10,18 @@
 #define PI    3.141592653589793
 #define BANDS 15 /* of a third of an octave: 20 to 508 Hz */
 
-/* Runaways: what they are held against is the reference, whose texture may itself bang and swing. */
+/* Runaways are compared with the reference, whose texture may itself bang and swing. */
 #define BANGS_FEW     6.0 /* three full swings from the force limit to no contact and back may be the hand's arrival */
 #define SWING_SMALL   0.001 /* m: twenty quanta; a limit cycle of quantisation and dry friction is one or two */
-#define GROWTH_STEADY 1.5   /* times the reference's, where that grows */
+#define GROWTH_STEADY 1.5   /* times the reference's, if that grows */
 
-/* Felt: above the threshold of detection, and not masked by what the texture asks for: the Weber fraction of a
+/* Felt: above the threshold of detection, and not masked by the texture: the Weber fraction of a
  * vibration's amplitude is 0.1 to 0.3 (common). */
 #define MASKED 1.2
 
 double lab_threshold(double hz) {
-    /* Of a stylus held as a pen (Israr, Choi and Tan 2006; common): about 0.2 um where touch is keenest, four times as
-     * much for half the frequency below, in proportion to it above. */
+    /* Of a stylus held as a pen (Israr, Choi and Tan 2006; common): about 0.2 um at the most sensitive frequency, four
+     * times as much at half that frequency, and in proportion to the frequency above. */
     return 0.2e-6 * fmax(pow(250.0 / hz, 2.0), hz / 250.0);
 }
 
@@ -46,7 +46,7 @@ static int band_powers(const double *one, const double *other, size_t count, dou
         mean[0] += one[i] / (double)count;
         mean[1] += other[i] / (double)count;
     }
-    for (size_t i = 0; i < count; i++) { /* in um or mN, so that single precision has nothing small to lose */
+    for (size_t i = 0; i < count; i++) { /* in um or mN, to avoid loss in single precision */
         const double hann = 0.5 - 0.5 * cos(2.0 * PI * ((double)i + 0.5) / (double)count);
         in[i].r = (float)(1e6 * hann * (one[i] - mean[0]));
         in[i].i = (float)(1e6 * hann * (other[i] - mean[1]));
@@ -135,15 +135,15 @@ static double rms(const double *values, size_t count) {
     return sqrt(squares / (double)count);
 }
 
-/* The last third of what is judged over its first; 1 where nothing moves at first. */
+/* The last third of the judged part over its first; 1 if nothing moves at first. */
 static double growth(const double *height, size_t from, size_t count) {
     const size_t third = (count - from) / 3;
     const double first = rms(height + from, third);
     return first > 0.0 ? rms(height + count - third, third) / first : 1.0;
 }
 
-/* A spring whose rest is H stores K (H - z)^2 / 2 in contact; moving H puts that much more into it, which is
- * authorised. What the motors give beyond is the wall's own. */
+/* A spring whose rest is H stores K (H - z)^2 / 2 in contact; moving H adds to that, which is authorised. The motors'
+ * further work is unauthorised. */
 void lab_energies(const lab_case *c, const lab_signals *s, lab_result *r) {
     double given = 0.0;
     double authorised = 0.0;

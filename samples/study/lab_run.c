@@ -6,16 +6,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define APPROACH       0.25   /* s that a stroke takes to come down */
+#define APPROACH       0.25   /* s: duration of a stroke's descent */
 #define HOVER          0.005  /* m above where a stroke starts */
-#define REFERENCE_RATE 4000.0 /* Hz at least: its force is taken in the middle of a step, so that little is left */
+#define REFERENCE_RATE 4000.0 /* Hz at least: the force is computed at the middle of a step, so the error is small */
 
-/* Orders of magnitude, not anybody's measurement; common, unverified, but for what is said to be read. A fingertip has
+/* Orders of magnitude, not measurements; common values, unverified except where "read" is noted. A fingertip has
  * some grams, some N s/m and 200 to 1300 N/m that grow with its force (Hajian and Howe 1997); in a pinch stiffness and
- * damping grow steadily with the force of the grip and the mass does not (Hasser and Cutkosky 2002: abstract read); a
- * stylus in a hand at the wrist is in between (Kuchenbecker, Park and Niemeyer 2003); a firm one takes hand and forearm
- * along (Speich, Shao and Goldfarb 2005; a whole arm: 0.55 kg, 6.5 N s/m and 135 N/m in one subject, van Beek et al.
- * 2015: figure read). "loose" is assumed: two fingers that only just hold on. */
+ * damping increase with the grip force, but the mass does not (Hasser and Cutkosky 2002: abstract read); a
+ * stylus in a hand at the wrist is in between (Kuchenbecker, Park and Niemeyer 2003); a firm grip includes hand and
+ * forearm (Speich, Shao and Goldfarb 2005; a whole arm: 0.55 kg, 6.5 N s/m and 135 N/m in one subject, van Beek et al.
+ * 2015: figure read). "loose" is assumed: two fingers that barely hold the stylus. */
 const lab_grip lab_grips[] = {{"none", 0.0, 0.0, 0.0},      {"loose", 100.0, 0.5, 0.005}, {"light", 250.0, 2.0, 0.01},
                               {"medium", 700.0, 5.0, 0.05}, {"firm", 2000.0, 15.0, 0.15}, {NULL, 0.0, 0.0, 0.0}};
 
@@ -77,11 +77,11 @@ static int make_room(lab_signals *s, size_t count) {
     return 0;
 }
 
-/* How far a stroke has to come down to cross the surface, `depth` before its end, at `speed`: its path is a smooth step
- * 3 u^2 - 2 u^3, so that (1 - u)^2 (1 + 2 u) of it is left at the surface, where it goes at 6 u (1 - u) way/APPROACH.
+/* The descent of a stroke that crosses the surface, `depth` before its end, at `speed`: its path is a smooth step 3 u^2
+ * - 2 u^3, so that (1 - u)^2 (1 + 2 u) of it is left at the surface, and the speed there is 6 u (1 - u) way/APPROACH.
  */
 static double way_down(double depth, double speed) {
-    double low = 0.5; /* from the middle of the step on it slows down */
+    double low = 0.5; /* it decelerates from the middle of the step on */
     double high = 1.0;
     for (int i = 0; i < 60; i++) {
         const double u = 0.5 * (low + high);
@@ -95,8 +95,8 @@ static double way_down(double depth, double speed) {
     return depth / ((1.0 - low) * (1.0 - low) * (1.0 + 2.0 * low));
 }
 
-/* The wall stands at y = 0, its normal up. A stroke starts HOVER above its centre and ends its depth below it, so that
- * a centre above the wall makes for a longer way down, and for a faster one. */
+/* The wall is at y = 0, its normal up. A stroke starts HOVER above its centre and ends its depth below it, so a centre
+ * above the wall makes the descent longer and faster. */
 static knurl_stroke_desc stroke_of(const lab_case *c) {
     const lab_grip *grip = c->grip;
     const double depth = grip->stiffness > 0.0 ? c->press / grip->stiffness : 0.0;
@@ -104,7 +104,7 @@ static knurl_stroke_desc stroke_of(const lab_case *c) {
     knurl_stroke_desc_init(&stroke, sizeof stroke);
     stroke.stroke = c->speed > 0.0 ? KNURL_STROKE_LINE : KNURL_STROKE_REST;
     stroke.speed = c->speed;
-    stroke.reach[0] = 1.0; /* no run comes to the turn */
+    stroke.reach[0] = 1.0; /* no run reaches the turn */
     if (c->approach > 0.0 && depth > 0.0) {
         stroke.centre[1] = fmax(0.0, way_down(depth, c->approach) - depth - HOVER);
     }
@@ -172,14 +172,14 @@ static knurl_result make_scene(const lab_case *c, const knurl_device_info *info,
     return result ? result : knurl_scene_commit(*scene);
 }
 
-/* What runs: the device, and the reference, a second one without delay, quantum and dry friction. */
+/* The device, and the reference: a second device without delay, quantum and dry friction. */
 typedef struct bench {
     const lab_case *c;
     knurl_scene *scene;
     knurl_device *device, *reference;
-    int steps;        /* of the reference, a tick */
+    int steps;        /* of the reference, per tick */
     double max_force; /* N */
-    double last;      /* m: measured one tick ago */
+    double last;      /* m: measured in the previous tick */
 } bench;
 
 static knurl_result build(const lab_case *c, bench *b) {
@@ -195,7 +195,7 @@ static knurl_result build(const lab_case *c, bench *b) {
     return result || c->bilateral ? result : make_scene(c, &info, &b->scene);
 }
 
-/* The force that the tick asks for; what it says of the texture into the signals. */
+/* Computes the tick's force, and records the texture's signals. */
 static void render(bench *b, const knurl_device_sample *sample, lab_signals *s, size_t i, double force[3]) {
     const lab_case *c = b->c;
     memset(force, 0, 3 * sizeof *force);
@@ -218,8 +218,8 @@ static void render(bench *b, const knurl_device_sample *sample, lab_signals *s, 
     b->last = sample->position[1];
 }
 
-/* The reference over one tick, from the H that the tick has decided on. It looks half a step ahead, which undoes what
- * holding its force over the step would do. */
+/* Advances the reference over one tick, with the tick's H. It extrapolates by half a step, to compensate for holding
+ * its force over the step. */
 static void follow(bench *b, double texture, lab_signals *s, size_t i) {
     const lab_case *c = b->c;
     const double dt = 1.0 / (c->rate * b->steps);

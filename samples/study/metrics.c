@@ -174,12 +174,11 @@ double study_spurious(const study_signal *signal, double frequency) {
         return NAN;
     }
     if (fundamental < 1.0 || fabs(cycles - fundamental) > 1e-6 * cycles) {
-        return 1.0; /* the period holds no whole number of true cycles: no line of it is the true one */
+        return 1.0; /* the period is not a whole number of true cycles: no line is at the true frequency */
     }
     double *bins = study_magnitudes(signal);
     double true_power = 0.0;
-    for (size_t q = 1; bins && q <= 20001;
-         q += 2) { /* beyond f_h/2 the hold's images, where a square wave has harmonics */
+    for (size_t q = 1; bins && q <= 20001; q += 2) { /* above f_h/2: the hold's images at a square wave's harmonics */
         const size_t line = q * (size_t)fundamental;
         const double held = 2.0 * bins[line % signal->length] * sinc((double)line / (double)signal->length);
         true_power += 0.5 * held * held;

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
-"""Draws what was felt: the CSV of `knurl run ... --out RUN.csv` as one picture.
+"""Draws the CSV of `knurl run ... --out RUN.csv` as one picture.
 
-Top left the path, coloured by speed, over the grating where that is coarse enough to draw (a stroke along one line is
+Top left the path, coloured by speed, over the grating if that is coarse enough to draw (a stroke along one line is
 unfolded in time); top right a few milliseconds of the height map. Below, over time: height map, force, the temporal
-frequency f_t that the motion asked for, and a spectrogram of the force with f_t as a thin line. Grey: no contact.
+frequency f_t of the motion, and a spectrogram of the force with f_t as a thin line. Grey: no contact.
 
 SPDX-License-Identifier: MIT
 """
@@ -42,7 +42,7 @@ def parse(path, reader):
     for cells in reader:
         if len(cells) != len(COLUMNS):
             raise BadInput(f"{path}: line {reader.line_num}: expected {len(COLUMNS)} cells, found {len(cells)}")
-        names.append(cells.pop(surface))  # an apostrophe before what alone would be a formula or the word none
+        names.append(cells.pop(surface))  # remove the apostrophe before a formula or the word "none"
         try:
             rows.append([float(cell or "nan") for cell in cells])
         except ValueError as error:
@@ -51,7 +51,7 @@ def parse(path, reader):
 
 
 def read_run(path):
-    """Reads and checks a run. Rows without a time are left out; what is not finite becomes NaN."""
+    """Reads and checks a run. Rows without a time are left out; values that are not finite become NaN."""
     try:
         with open_input(path, newline="") as file:
             data, names = parse(path, csv.reader(file))
@@ -75,7 +75,7 @@ def read_run(path):
 
 
 def most(values, otherwise=0.0):
-    """The largest of the values that are there."""
+    """The largest finite value."""
     return float(np.nanmax(values)) if np.isfinite(values).any() else otherwise
 
 
@@ -90,14 +90,14 @@ def thin(t, y, count=6000):
 
 
 def smooth(values, run, seconds):
-    """Mean over the time around each tick; NaN are left out and stay."""
+    """Mean over the time around each tick; NaN are left out, and remain."""
     kernel, there = np.ones(max(1, min(int(seconds * (run.rate or 0)), len(values)))), np.isfinite(values)
     total = np.convolve(np.where(there, values, 0.0), kernel, "same")
     return np.where(there, total / np.maximum(np.convolve(there * 1.0, kernel, "same"), 1.0), np.nan)
 
 
 def view(run):
-    """(axes, unfolded): the two scene axes in which the hand moved most, or only one where it kept to a line."""
+    """(axes, unfolded): the two scene axes in which the hand moved most, or only one if it moved along a line."""
     points = run.position[run.touching] if run.touching.any() else run.position
     extent = np.nan_to_num(np.array([most(p) + most(-p) for p in points.T]))
     order = np.argsort(-extent, kind="stable")
@@ -106,7 +106,7 @@ def view(run):
 
 
 def gratings(run, axes):
-    """[(direction in the view, period in m)] of what was felt, as far as the motion shows it."""
+    """[(direction in the view, period in m)] of the grating, as far as it follows from the motion."""
     if len(run.t) < 20:
         return []
     v, surface_v = np.gradient(run.position[:, axes], run.t, axis=0), np.stack([run.vx, run.vy], axis=1)
@@ -117,7 +117,7 @@ def gratings(run, axes):
     for i, direction in enumerate(np.linalg.lstsq(surface_v, v, rcond=1e-6)[0]):
         along, across = np.abs(surface_v[:, i]), np.abs(surface_v[:, 1 - i])
         best = np.argsort(across / np.maximum(along, 1e-9), kind="stable")[:max(20, len(v) // 20)]
-        best = best[across[best] < 0.25 * along[best]]  # there f_t is this direction's frequency times its speed
+        best = best[across[best] < 0.25 * along[best]]  # f_t there is this direction's frequency times its speed
         frequency = np.median(ft[best] / along[best]) if len(best) else 0.0
         if frequency > 0 and 0.9 < np.linalg.norm(direction) < 1.1:
             found.append((direction / np.linalg.norm(direction), 1 / frequency))
@@ -141,7 +141,7 @@ def draw_grating(ax, found, over_time=False):
 
 
 def frame(ax, x, y, equal):
-    """Limits around the points with a margin, in true proportions where `equal`."""
+    """Limits around the points with a margin, in true proportions if `equal`."""
     low, high = np.array([[-most(-v), most(v)] for v in (x, y)]).T
     half, middle = np.maximum(0.56 * (high - low), 0.05), (high + low) / 2
     if equal:
@@ -182,7 +182,7 @@ def colour_bar(drawn, ax, label):
 
 
 def choose_moment(run):
-    """(from, to) in s: about eight periods where f_t was highest for a while, or None."""
+    """(from, to) in s: about eight periods at the highest sustained f_t, or None."""
     asked = smooth(np.where((run.height != 0) & (run.ft > 0), run.ft, np.nan), run, 0.4)
     if not run.rate or not np.isfinite(asked).any():
         return None

@@ -6,8 +6,8 @@
 #define PREFERENCE_CELLS   48 /* 12 periods x 2 intensities x with and without sound */
 #define PREFERENCE_METRICS 5
 
-/** One cell of figure 8: a published verdict, and how much worse the other method's medium vibration is than T3's.
- * Doubles throughout, so that a column is an array with a stride. */
+/** One cell of figure 8: a published verdict, and the difference in metrics between the other method's medium vibration
+ * and T3's. Doubles throughout, so that a column is an array with a stride. */
 typedef struct preference_cell {
     double period_ticks;
     double amplitude; /**< N */
@@ -19,7 +19,7 @@ typedef struct preference_cell {
 /** The names of metric[]. */
 extern const char *const preference_metric_names[PREFERENCE_METRICS];
 
-/** Fills in Experiment 1 (T1 against T3) or 2 (T2 against T3). 0: no memory. */
+/** Fills in Experiment 1 (T1 against T3) or 2 (T2 against T3). 0: out of memory. */
 int preference_cells(int experiment, preference_cell cells[PREFERENCE_CELLS]);
 
 /** One spatial period of Experiment 3: means over steady speeds of 5, 10, ... 250 mm/s, 1 s each. */
@@ -32,7 +32,7 @@ typedef struct preference_grating {
     double drift[2]; /**< mean |played/crossed - 1| */
 } preference_grating;
 
-/** Fills in Experiment 3. 0: no memory. */
+/** Fills in Experiment 3. 0: out of memory. */
 int preference_gratings(preference_grating gratings[3]);
 
 #endif

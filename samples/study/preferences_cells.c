@@ -49,7 +49,7 @@ static int measure(int32_t method, double period_ticks, vibration *out) {
         !study_signal_of_wave(&wave, RATE, &signal)) {
         return 0;
     }
-    /* as many actual periods as hold a whole number of the cycles asked for: twice the period is whole in every cell */
+    /* a number of actual periods with a whole number of requested cycles: twice the period is whole in every cell */
     const size_t times = (size_t)(2.0 * period_ticks);
     double *values = malloc(times * signal.length * sizeof *values);
     for (size_t k = 0; values && k < times * signal.length; k++) {
@@ -71,9 +71,9 @@ static int measure(int32_t method, double period_ticks, vibration *out) {
     return done;
 }
 
-/* What section IV says in words (figure 8 itself is a picture). */
+/* The results in the text of section IV (figure 8 itself is a picture). */
 static int is_preferred(int experiment, double period_ticks, int high, int sound) {
-    if (experiment == 2) { /* all with sound; 43.5-143 Hz without, whatever the intensity */
+    if (experiment == 2) { /* all with sound; 43.5-143 Hz without, at both intensities */
         return sound || period_ticks >= 7.0;
     }
     if (high) { /* 111-400 Hz, with and without sound */
@@ -109,7 +109,7 @@ int preference_cells(int experiment, preference_cell cells[PREFERENCE_CELLS]) {
     return 1;
 }
 
-/* One method at one speed, added to the means. */
+/* Adds one method at one speed to the means. */
 static int add_scan(preference_grating *g, int method, double speed, study_motion *motion) {
     static const double start[2] = {0.000137, 0.0};
     const double velocity[2] = {speed, 0.0};
@@ -126,7 +126,7 @@ static int add_scan(preference_grating *g, int method, double speed, study_motio
         return 0;
     }
     g->push[method] += study_scan_push(&scan, frequency, PUSH) / SPEEDS;
-    /* the window's own width is 2 Hz: at 2.5 Hz (5 mm/s over 2 mm) that is wider than the tolerance */
+    /* the window's width is 2 Hz: at 2.5 Hz (5 mm/s over 2 mm) that is wider than the tolerance */
     g->spurious[method] += study_scan_spurious(&scan, frequency, fmax(TOLERANCE, 2.5 / frequency)) / SPEEDS;
     g->dropout[method] += study_scan_dropout(&scan) / SPEEDS;
     g->drift[method] += (method == 0 ? 0.0 : fabs(study_scan_drift(&scan))) / SPEEDS;

@@ -14,8 +14,8 @@ static const double periods_ms[] = {4.0, 3.0, 5.0, 2.5, 3.3};
 static const char *const period_kinds[] = {"even", "odd", "odd", "mixed", "other"};
 #define PERIODS (sizeof periods_ms / sizeof *periods_ms)
 
-/* The one or two square waves that a signal is the sum of: T2's are in the wave; the mixed case is Eq. 8's. 0 for T1,
- * and for a T3 event that is no mix. */
+/* The one or two square waves that sum to a signal: T2's are in the wave; the mixed case is Eq. 8's. 0 for T1, and for
+ * a T3 event that is not mixed. */
 static int parts_of(const knurl_wave *wave, knurl_vibration_event parts[2]) {
     if (wave->method == KNURL_WAVE_T2) {
         parts[0] = wave->parts[0];
@@ -36,7 +36,7 @@ static double part_value(const knurl_vibration_event *part, uint64_t tick) {
     return knurl_vibration_event_height(part, (int32_t)(tick % (uint64_t)part->length));
 }
 
-/* tick, value, and the parts where the signal is a sum of two. */
+/* tick, value, and the parts if the signal is a sum of two. */
 static void write_rows(FILE *csv, const knurl_wave *wave, double period_ms) {
     knurl_vibration_event parts[2];
     const int count = parts_of(wave, parts);
@@ -60,7 +60,7 @@ static void write_parts(json_writer *json, const knurl_wave *wave) {
     for (int i = 0; i < count && count == 2; i++) {
         const double ap = parts[i].positive;
         const double an = parts[i].negative;
-        const double rms = sqrt((ap * ap * parts[i].positive_ticks + /* half peak to peak asked for: Eq. 6 backwards */
+        const double rms = sqrt((ap * ap * parts[i].positive_ticks + /* half peak to peak, from Eq. 6 inverted */
                                  an * an * (parts[i].length - parts[i].positive_ticks)) /
                                 parts[i].length);
         json_open(json, NULL, '{');
@@ -71,7 +71,7 @@ static void write_parts(json_writer *json, const knurl_wave *wave) {
     json_close(json, ']');
 }
 
-/* 0, or 1 where memory is not to be had. */
+/* 0, or 1 if memory runs out. */
 static int write_cell(json_writer *json, const knurl_wave *wave, size_t index) {
     static const char *const keys[] = {"net", "rms", "dominant_amplitude", "dominant_hz", "actual_period_ms", "peak"};
     study_signal signal;

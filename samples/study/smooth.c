@@ -1,6 +1,5 @@
-/* Study `smooth`: a stroke over a low-poly ring, felt as its triangles and as the smooth surface that its normals
- * describe, against the ring's closed form; and what that costs.
- * SPDX-License-Identifier: MIT */
+/* Study `smooth`: a stroke over a low-poly ring, felt as triangles and as the smooth surface that its normals describe,
+ * compared with the ring's closed form; and the costs. SPDX-License-Identifier: MIT */
 #include "study.h"
 
 #include "say.h"
@@ -18,13 +17,14 @@
 #define WAY       0.0001 /* m a tick: 100 mm/s */
 #define TICKS     2000
 #define DRAWN     600 /* ticks in the table */
-#define ROUNDS    9   /* of which the fastest is reported */
-#define SMALLEST  0   /* the ring that is drawn, in `rings` */
+#define ROUNDS    9   /* the fastest one is reported */
+#define SMALLEST  0   /* index of the drawn ring */
 
-static const uint32_t rings[] = {24, 36, 72, 144}; /* quads around; half as many round the tube */
+static const uint32_t rings[] = {24, 36, 72, 144}; /* quads around the ring; half as many around the tube */
 
 typedef struct outcome {
-    double degrees, depth, step; /* mean angle off the form's normal; worst share of DEPTH off; largest step, N */
+    double degrees, depth,
+        step; /* mean error of the normal; worst error of depth as a share of DEPTH; largest step, N */
     double ns;
 } outcome;
 
@@ -37,7 +37,7 @@ static void ring_at(double u, double v, double point[3], double normal[3]) {
     }
 }
 
-/* Slanted round the tube, a tick's way each. */
+/* A slanted path round the tube, one step per tick. */
 static void place(int tick, double hip[3], double normal[3]) {
     ring_at(0.3 + 0.8 * WAY * tick / (MAJOR + MINOR), 0.4 + 0.6 * WAY * tick / MINOR, hip, normal);
     for (int i = 0; i < 3; i++) {
@@ -112,7 +112,7 @@ static void judge(const knurl_tick_output *out, const double normal[3], const do
     o->step = fmax(o->step, length_of(change));
 }
 
-/* One stroke. csv: null, or the forces along and across the form's normal go there. */
+/* One stroke. csv: null, or receives the forces along and across the true normal. */
 static knurl_result stroke(knurl_scene *scene, const char *kind, FILE *csv, outcome *o) {
     double last[3] = {0.0, 0.0, 0.0};
     knurl_result result = KNURL_OK;
@@ -120,7 +120,7 @@ static knurl_result stroke(knurl_scene *scene, const char *kind, FILE *csv, outc
     knurl_tick_output out;
     memset(&out, 0, sizeof out);
     (void)clock_gettime(CLOCK_MONOTONIC, &from);
-    for (int tick = -60; tick < TICKS && !result; tick++) { /* at first from outside, down to the stroke's begin */
+    for (int tick = -60; tick < TICKS && !result; tick++) { /* first from outside down to the stroke's start */
         knurl_tick_input input;
         double normal[3];
         memset(&input, 0, sizeof input);
@@ -129,7 +129,7 @@ static knurl_result stroke(knurl_scene *scene, const char *kind, FILE *csv, outc
             input.position[i] -= WAY * tick * normal[i];
         }
         input.has_velocity = 1;
-        input.absent = tick == -60; /* ends the last round's contact */
+        input.absent = tick == -60; /* ends the previous round's contact */
         result = knurl_scene_tick(scene, 0, &input, &out);
         if (o && tick > 0) {
             judge(&out, normal, last, o);

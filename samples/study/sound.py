@@ -1,7 +1,6 @@
 #!/usr/bin/python3
 """Draws a run's sound beside its force: spectrograms of `knurl run ... --wav FELT.wav --out RUN.csv`, each with the
-temporal frequency f_t that the motion asked for. Both have the same lines up to half the update rate; the sound goes on
-where the force cannot.
+temporal frequency f_t of the motion. Both have the same lines up to half the update rate; the sound continues above it.
 
 usage: sound.py RUN.csv [FELT.wav] --out PICTURE.png     the sound: by default RUN.wav
 

@@ -6,7 +6,7 @@
 
 #include <stdio.h>
 
-/** A mass and a damper (the device, held by no hand) against the law F = -K x - B dx/dt, sampled, delayed. */
+/** A mass and a damper (the device without a hand) against the law F = -K x - B dx/dt, sampled, delayed. */
 typedef struct stability_loop {
     double mass;    /**< kg */
     double viscous; /**< b: N s/m */
@@ -18,14 +18,16 @@ typedef struct stability_loop {
 /** N/m: (b + B)/(T/2 + td). */
 double stability_bound(const stability_loop *loop);
 
-/** N/m: where the loop's exact discretisation has a pole on the unit circle. */
+/** N/m: the stiffness at which the loop's exact discretisation has a pole on the unit circle. */
 double stability_exact(const stability_loop *loop);
 
-/** N/m: where a release from 5 mm neither grows nor dies in the laboratory. Negative: with the library's message. */
+/** N/m: the stiffness at which a release from 5 mm neither grows nor decays in the laboratory. Negative: an error, with
+ * the library's message. */
 double stability_found(const stability_loop *loop, lab_signals *signals);
 
-/** N/m: where a sampled wall on a damper b gives a hand that moves it to and fro at `hz` just as much as b takes: in
- * the laboratory, by the works of motor and hand. Negative: with the library's message. */
+/** N/m: the stiffness at which a sampled wall gives a hand that moves it to and fro at `hz` exactly the energy that the
+ * damper b absorbs: in the laboratory, by the work of motor and hand. Negative: an error, with the library's message.
+ */
 double stability_passive_found(const stability_loop *loop, double hz);
 
 /** One point of the regions of a quantised wall on a device with dry friction (Diolaiti et al. 2006): beta = b/(K T),
@@ -33,35 +35,34 @@ double stability_passive_found(const stability_loop *loop, double hz);
  * with the library's message. */
 int stability_region_run(double beta, double sigma, lab_signals *signals, lab_result *result);
 
-/** What theory says of that point: beta < 1/2: unstable, where the fall is larger than what dry friction can hold
- * (LAB_UNSTABLE); else sigma < 1/2: the force between two levels leaves it no place to rest (LAB_LIMIT_CYCLE); else
- * LAB_REST. */
+/** The theory's outcome at that point: LAB_UNSTABLE if beta < 1/2 and the fall is too large for dry friction; otherwise
+ * LAB_LIMIT_CYCLE if sigma < 1/2, because it cannot rest between two force levels; otherwise LAB_REST. */
 int stability_region_expected(double beta, double sigma);
 
-/** N/m: (b + fc/v + hand's b)/(T/2 + td): dry friction of a device that slides at v acts across the way like a damper.
+/** N/m: (b + fc/v + hand's b)/(T/2 + td): dry friction of a device that slides at v acts like a damper across its path.
  */
 double stability_sliding_bound(const knurl_device_info *device, const lab_grip *grip, double speed, double rate);
 
-/** N/m: up to where a device stays clean (no limit cycle, nothing unstable): scanned in steps of 5 %. */
+/** N/m: the largest stiffness at which a device stays clean (no limit cycle, not unstable), scanned in steps of 5 %. */
 double stability_clean_found(const lab_case *c, lab_signals *signals);
 
 /** One line of the table of checks. */
 typedef struct stability_check {
     char what[96];
     const char *unit;       /**< "N/m", "J" or "outcome": LAB_ */
-    double expected, found; /**< by theory, by the laboratory */
+    double expected, found; /**< by theory; by the laboratory */
     double tolerance;       /**< of `found` against `expected`, a share of it; INFINITY: `found` is no less */
 } stability_check;
 
 #define STABILITY_CHECKS 80
 
-/** All of them; how many, or 0 with the library's message. */
+/** Runs all checks. Returns their number, or 0 with the library's message. */
 size_t stability_checks(stability_check checks[STABILITY_CHECKS]);
 
 /** 1: found is within the tolerance of what was expected. */
 int stability_holds(const stability_check *check);
 
-/** A way to render, a row of every map of methods. To add a method, add a row. */
+/** A rendering method, a row of every map of methods. To add a method, add a row. */
 typedef struct stability_method {
     const char *name;
     int32_t method;  /**< KNURL_ */
@@ -72,10 +73,10 @@ extern const stability_method stability_methods[]; /**< ended by a null name */
 
 /** One map: outcomes over an axis and stiffness or amplitude, for one device in one hand. */
 typedef struct stability_map {
-    const char *figure; /**< which picture, and which pair of files, it belongs to */
-    const char *name;   /**< what varies along x: "damping", "wall damping", "delay", "rate" or "speed" */
-    const char *device; /**< as lab_case.device; "%s" in it: where damping or delay come in */
-    const char *label;  /**< for people */
+    const char *figure; /**< its picture, and its pair of files */
+    const char *name;   /**< the quantity along x: "damping", "wall damping", "delay", "rate" or "speed" */
+    const char *device; /**< as lab_case.device; "%s": replaced by damping or delay */
+    const char *label;  /**< for display */
     const char *grip;
     int32_t method; /**< of stability_methods */
     uint32_t without;
@@ -92,7 +93,7 @@ typedef struct stability_cell {
 /** A figure's maps, one after the other; `index` counts from 0. 0: there are no more. */
 int stability_map_at(const char *figure, size_t index, stability_map *map);
 
-/** Runs a map; how many cells, or 0 with the library's message. */
+/** Runs a map. Returns the number of cells, or 0 with the library's message. */
 size_t stability_map_run(const stability_map *map, lab_signals *signals,
                          stability_cell cells[STABILITY_COLUMNS * STABILITY_ROWS]);
 

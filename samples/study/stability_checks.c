@@ -102,9 +102,9 @@ double stability_found(const stability_loop *l, lab_signals *signals) {
     return 0.5 * (low + high);
 }
 
-/* What the motors gave and what the device's damper took over whole cycles of a hand that moves to and fro. The damper
- * took what motors and hand gave, as the motion repeats; the hand's part is summed by Simpson's rule, whose middles a
- * device at twice the rate would tell: here v is smooth, and a trapezium will do. */
+/* The work of the motors and the loss in the device's damper over whole cycles of a hand that moves to and fro. Because
+ * the motion repeats, the damper absorbs the work of motors and hand. Simpson's rule for the hand's part would need
+ * midpoints at twice the rate; v is smooth, so the trapezoidal rule is enough. */
 static int works(const stability_loop *l, double stiffness, double hz, double *given, double *taken) {
     char uri[256];
     knurl_device *device = NULL;
@@ -160,7 +160,7 @@ double stability_passive_found(const stability_loop *l, double hz) {
 }
 
 int stability_region_run(double beta, double sigma, lab_signals *signals, lab_result *result) {
-    static const lab_grip push = {"push", 2.0, 0.0, 0.0}; /* so soft that it is a force */
+    static const lab_grip push = {"push", 2.0, 0.0, 0.0}; /* so soft that it acts as a constant force */
     char device[160];
     lab_case c;
     lab_case_init(&c);
@@ -177,7 +177,7 @@ int stability_region_run(double beta, double sigma, lab_signals *signals, lab_re
 }
 
 int stability_region_expected(double beta, double sigma) {
-    /* A swing of amplitude X gains (K T/2 - b) pi w X^2 a cycle and loses 4 fc X: what is larger than X grows. */
+    /* A swing of amplitude X gains (K T/2 - b) pi w X^2 a cycle and loses 4 fc X: larger swings grow. */
     const double gain = (0.5 - beta) * REGION_K / 1000.0 * PI * sqrt(REGION_K / REGION_MASS);
     if (beta < 0.5 && 4.0 * sigma * REGION_K * QUANTUM / gain < REGION_FALL) {
         return LAB_UNSTABLE;
@@ -208,7 +208,7 @@ int stability_holds(const stability_check *k) {
                                : fabs(k->found - k->expected) <= k->tolerance * fabs(k->expected);
 }
 
-/* Where the checks are gathered. */
+/* The table of checks while it is filled. */
 typedef struct table {
     stability_check *checks;
     size_t count;
@@ -227,7 +227,7 @@ static stability_check *add(table *t, const char *unit, double expected, double 
     return k;
 }
 
-/* The bound is an approximation, whose error with B grows to a tenth; the discretisation is exact. */
+/* The bound is an approximation, with an error up to a tenth for large B; the discretisation is exact. */
 static void check_loops(table *t) {
     static const double rates[] = {1000.0, 2000.0, 5000.0, 10000.0};
     for (size_t rate = 0; rate < 4; rate++) {
@@ -268,8 +268,8 @@ static void check_regions(table *t) {
     }
 }
 
-/* A force that is held over a tick while the spring goes on by dx gives K dx^2/2 more than it took: what the observer
- * has to find, of a contact that ends again. */
+/* A force held over a tick while the spring moves by dx gives K dx^2/2 more energy than it took: the observer must find
+ * this over a contact that ends. */
 static void check_leak(table *t) {
     lab_case c;
     lab_result r;
@@ -292,7 +292,7 @@ static void check_leak(table *t) {
     (void)snprintf(k->what, sizeof k->what, "sample and hold leaks K dx^2/2 a tick");
 }
 
-/* A flat wall under a device that slides, in a hand that holds it loosely: to within two steps of the scan. */
+/* A flat wall under a device that slides, in a loose hand: to within two steps of the scan. */
 static void check_sliding(table *t) {
     static const char *const presets[] = {"preset=touch&resolution=0", "preset=falcon&resolution=0"};
     static const double speeds[] = {0.15, 0.3};
@@ -320,9 +320,9 @@ static void check_sliding(table *t) {
     }
 }
 
-/* Choi and Tan (2004): clean from 0.325 N/mm at 250 Hz to 0.904 at 40 kHz. Their device, hand and texture are not
- * these: a trend only, here on a flat wall that is slid over. Each is expected to be no less than the one before it,
- * two steps of the scan aside. */
+/* Choi and Tan (2004): clean from 0.325 N/mm at 250 Hz to 0.904 at 40 kHz. Their device, hand and texture differ, so
+ * only the trend is checked, on a flat wall with a sliding device: each value must not be less than the previous one,
+ * within two steps of the scan. */
 static void check_trend(table *t) {
     static const double rates[] = {250.0, 500.0, 1000.0, 2000.0, 5000.0, 10000.0};
     double last = 0.0;

@@ -12,12 +12,12 @@ const stability_method stability_methods[] = {{"flat", KNURL_METHOD_DEFAULT, 0},
 
 #define TEXTURE_A 0.0002 /* m: in the maps of stiffness */
 #define FREEZE                                                                                                         \
-    2.25 /* s: S2 has ended the event that it began near rest, at KNURL_S2_DEADBAND on 2 mm at worst; and              \
-            what a protection has stopped has died away */
+    2.25 /* s: S2 has ended its event from near rest, at KNURL_S2_DEADBAND on 2 mm at worst; and                       \
+            motion stopped by a protection has decayed */
 #define SPEEDS 8
 #define LEVELS 11
 
-/* The bounds' figure: a flat wall against what its theory knows. */
+/* The figure of bounds: a flat wall against theory. */
 static const struct {
     const char *name, *device;
 } bounds[] = {{"damping", "&viscous=%s"}, {"wall damping", "%s"}, {"delay", "&delay=%s"}, {"rate", "%s"}};
@@ -54,7 +54,7 @@ static int bounds_at(size_t index, stability_map *map) {
     return 1;
 }
 
-/* Methods that this library has; the others' rows are left out. */
+/* Methods of this library; rows of others are left out. */
 static int32_t available(size_t index) {
     for (int32_t i = 0; stability_methods[i].name; i++) {
         knurl_grating g = {.spatial_frequency = {1000.0, 0.0},
@@ -97,7 +97,7 @@ static double geometric(double from, double to, size_t i, size_t count) {
     return from * pow(to / from, (double)i / (double)(count - 1));
 }
 
-/* Sets what varies: x along the map's axis, y the stiffness or the amplitude. device: room for the URI. */
+/* Sets the varied quantities: x along the map's axis, y the stiffness or the amplitude. device: room for the URI. */
 static void place(const stability_map *map, const knurl_device_info *limits, size_t column, size_t row,
                   char device[160], lab_case *c, stability_cell *cell) {
     const stability_method *method = &stability_methods[map->method];

@@ -15,7 +15,7 @@ double quantile(double *values, size_t count, double share) {
     return values[(size_t)(share * (double)count)];
 }
 
-/* Two values a rounding apart are tied. */
+/* Values that differ only by rounding are tied. */
 static int order(double a, double b) {
     const double near = 1e-9 * fmax(1.0, fmax(fabs(a), fabs(b)));
     return a > b + near ? 1 : a < b - near ? -1 : 0;
@@ -38,7 +38,7 @@ double rank_spearman(const double *x, const double *y, size_t count) {
     double bb = 0.0;
     mid_ranks(x, count, a);
     mid_ranks(y, count, b);
-    for (size_t i = 0; i < count; i++) { /* mid-ranks counted so have the mean count/2 */
+    for (size_t i = 0; i < count; i++) { /* the mean of these mid-ranks is count/2 */
         const double u = a[i] - 0.5 * (double)count;
         const double v = b[i] - 0.5 * (double)count;
         ab += u * v;
@@ -78,7 +78,7 @@ double rank_separation(const double *x, const double *y, size_t count) {
     return pairs > 0.0 ? above / pairs : NAN;
 }
 
-/* n! / (m! (n - m)!) / 2^n; the halvings are dealt out so that nothing overflows. */
+/* n! / (m! (n - m)!) / 2^n; the halvings are interleaved to avoid overflow. */
 static double point(uint32_t n, uint32_t m) {
     double p = 1.0;
     uint32_t halvings = 0;

@@ -7,21 +7,21 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/** The value that this share (0 to below 1) of at least one value is below; sorts them. 0.5: the median, of an even
- * number the upper. */
+/** The quantile at `share` (0 to below 1) of at least one value; sorts them. 0.5: the median; for an even count the
+ * upper one. */
 double quantile(double *values, size_t count, double share);
 
 #define RANK_MAX 256 /* values at most */
 
-/** Spearman's rho: Pearson's correlation of the mid-ranks. NaN where either does not vary. */
+/** Spearman's rho: Pearson's correlation of the mid-ranks. NaN if either is constant. */
 double rank_spearman(const double *x, const double *y, size_t count);
 
 /** Kendall's tau-b: concordant less discordant pairs, over the geometric mean of the pairs not tied in x and not tied
- * in y. NaN where either does not vary. */
+ * in y. NaN if either is constant. */
 double rank_kendall(const double *x, const double *y, size_t count);
 
-/** The chance that x of a pair drawn from y > 0.5 is above x of one drawn from the others, ties by half (the area under
- * the ROC curve): 1 separates completely, 0.5 says nothing. NaN where there is none of either. */
+/** The probability that x of a random pair with y > 0.5 exceeds x of a random other pair, ties counting half (the area
+ * under the ROC curve): 1 separates completely, 0.5 not at all. NaN if either group is empty. */
 double rank_separation(const double *x, const double *y, size_t count);
 
 enum { BINOMIAL_POINT = 0, BINOMIAL_ONE_SIDED = 1, BINOMIAL_TWO_SIDED = 2 };
@@ -30,7 +30,7 @@ enum { BINOMIAL_POINT = 0, BINOMIAL_ONE_SIDED = 1, BINOMIAL_TWO_SIDED = 2 };
  * that, at most 1. */
 double binomial_probability(int32_t rule, uint32_t n, uint32_t m);
 
-/** The least m above n/2 with a probability of at most `significance`; n + 1 where there is none. */
+/** The least m above n/2 with a probability of at most `significance`; n + 1 if there is none. */
 uint32_t binomial_threshold(int32_t rule, uint32_t n, double significance);
 
 #endif

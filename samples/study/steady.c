@@ -12,7 +12,7 @@
 #define PUSH_S  0.05
 #define SHORT_S 0.012
 #define LONG_S  0.05
-#define LEAST   8.0 /* Hz: what is below is a press, not a vibration */
+#define LEAST   8.0 /* Hz: lower frequencies are a press, not a vibration */
 
 void steady_line(const double *heights, size_t ticks, double rate, double frequency, double line[2]) {
     line[0] = 0.0;
@@ -36,7 +36,7 @@ double steady_felt_weight(double hz) {
     return hz > LEAST ? motion(hz) / threshold : 0.0;
 }
 
-/* Of the rms in windows that move by a tick. */
+/* Wavering of the rms in windows that advance by one tick. */
 static double find_wavering(const double *heights, size_t ticks, double window_ticks) {
     const size_t window = (size_t)fmax(1.0, floor(window_ticks + 0.5));
     double power = 0.0;
@@ -57,8 +57,8 @@ static double find_wavering(const double *heights, size_t ticks, double window_t
                                     : 0.0;
 }
 
-/* Lines 0 to ticks - 1 of the heights less their mean, through Hann's window, so that a line that is between two bins
- * stays near them. Null: no memory. */
+/* Lines 0 to ticks - 1 of the heights less their mean, through Hann's window, so that a line between two bins stays
+ * near them. Null: out of memory. */
 static double *find_spectrum(const double *heights, size_t ticks, double rate, double *mean) {
     double *windowed = malloc(ticks * sizeof *windowed);
     study_signal signal;
@@ -82,7 +82,7 @@ static double *find_spectrum(const double *heights, size_t ticks, double rate, d
     return bins;
 }
 
-/* sin(pi x)/(pi x): what a hold over a tick leaves of a line of x cycles a tick. */
+/* sin(pi x)/(pi x): attenuation of a line of x cycles per tick by the hold over a tick. */
 static double sinc(double x) {
     return sin(PI * x) / (PI * x);
 }
@@ -107,7 +107,7 @@ static int is_ridges(double hz, double frequency) {
     return fabs(order - odd) * frequency <= fmax(STEADY_TOLERANCE * frequency, STEADY_TOLERANCE_HZ);
 }
 
-/* What does not vary is no vibration at all. */
+/* A constant signal is not a vibration. */
 static double share(double far, double all) {
     return all > 0.0 ? far / all : 1.0;
 }

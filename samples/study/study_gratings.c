@@ -24,7 +24,7 @@ static void print_summary(const gratings_summary *s) {
            s->depth_needed[0], s->depth_needed[1]);
 }
 
-/* All parts into two open files. */
+/* Writes all parts to two open files. */
 static int write_all(FILE *csv, json_writer *json, void *user) {
     gratings_summary *summary = user;
     json_string(json, "study", "gratings");

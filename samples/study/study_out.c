@@ -1,4 +1,4 @@
-/* What the studies share: files, numbers, progress. SPDX-License-Identifier: MIT */
+/* Shared by the studies: files, numbers, progress. SPDX-License-Identifier: MIT */
 #include "study_out.h"
 
 #include "os.h"

@@ -1,4 +1,4 @@
-/* What the studies share: files, numbers, progress. SPDX-License-Identifier: MIT */
+/* Shared by the studies: files, numbers, progress. SPDX-License-Identifier: MIT */
 #ifndef KNURL_STUDY_OUT_H
 #define KNURL_STUDY_OUT_H
 
@@ -6,16 +6,18 @@
 #include "options.h"
 #include "out.h"
 
-/** Opens FOLDER/NAME, making the folder (its parent must be there); out_keep() or out_discard() it. 0, or 1 having said
- * why. */
+/** Opens FOLDER/NAME, creating the folder (its parent must exist); end with out_keep() or out_discard(). 0, or 1 after
+ * printing the reason. */
 int study_open(out_file *file, const char *folder, const char *name);
 
-/** Writes FOLDER/NAME.csv and FOLDER/NAME.json, one object, by one function, which returns 0, 1 where memory is not to
- * be had (that is then said), or 2 having said why. Both files are there whole, or neither. 0, or 1 having said why. */
+/** Writes FOLDER/NAME.csv and FOLDER/NAME.json, one object, by one function, which returns 0, 1 if memory runs out
+ * (reported here), or 2 after printing the reason. Either both files are complete, or there is neither. 0, or 1 after
+ * printing the reason. */
 int study_write(const char *folder, const char *name, int (*write)(FILE *csv, json_writer *json, void *user),
                 void *user);
 
-/** The rest of a row of CSV: a comma before each number, then the end of the line. What is not finite is an empty cell.
+/** The rest of a row of CSV: a comma before each number, then the end of the line. Numbers that are not finite become
+ * empty cells.
  */
 void study_end_row(FILE *csv, const double *cells, size_t count);
 

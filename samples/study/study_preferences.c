@@ -1,4 +1,5 @@
-/* knurl study preferences: figure 8 and Experiment 3 beside this code's metrics. SPDX-License-Identifier: MIT */
+/* knurl study preferences: figure 8 and Experiment 3, compared with this code's metrics. SPDX-License-Identifier: MIT
+ */
 #include "preferences.h"
 
 #include "say.h"

@@ -93,9 +93,9 @@ static void print_checks(const stability_check *checks, size_t count) {
     }
 }
 
-/* What runs away below the maker's stiffness and within the motors' force. */
+/* Prints the runaways below the maker's stiffness and within the motors' force. */
 static void print_runaways(const chart *c) {
-    const double limits[][2] = {{1020.0, 3000.0}, {1.0, 1.0}}; /* an amplitude's map ends where the force does */
+    const double limits[][2] = {{1020.0, 3000.0}, {1.0, 1.0}}; /* a map of amplitudes ends at the motors' force */
     const int amplitudes = strcmp(c->figure, "stability_amplitudes") == 0;
     say(stdout, "\n");
     say(stdout, "%s: cells that run away or buzz within the device's own limits, of those that lie within them\n",
@@ -150,7 +150,7 @@ int study_stability(const char *folder) {
     for (size_t figure = 0; figure < FIGURES && !failed; figure++) {
         failed = run_chart(c, figure, &signals);
         if (!failed && study_write(folder, figures[figure], write_chart, c)) {
-            break; /* it has said why */
+            break; /* the reason was printed */
         }
         if (!failed && figure > 0) {
             print_runaways(c);

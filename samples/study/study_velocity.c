@@ -1,6 +1,5 @@
-/* Study `velocity`: errors of each velocity estimator at each speed, resolution and rate, and its cost; the choice of
- * the default.
- * SPDX-License-Identifier: MIT */
+/* Study `velocity`: errors of each velocity estimator at each speed, resolution and rate, and its cost, to choose the
+ * default. SPDX-License-Identifier: MIT */
 #include "velocity.h"
 
 #include "cost.h"
@@ -15,7 +14,7 @@
 #define RESOLUTIONS 2
 #define MOST        8 /* contenders */
 #define PLACES      4096
-#define ROUNDS      9 /* of timing: the best is taken, as others use the machine too */
+#define ROUNDS      9 /* of timing: the fastest counts, because others use the machine */
 
 static const double speeds[SPEEDS] = {0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5};
 static const double rates[RATES] = {1000.0, 2000.0, 5000.0, 10000.0};
@@ -23,10 +22,10 @@ static const double resolutions[RESOLUTIONS] = {0.055e-3, 0.01e-3}; /* the Touch
 
 typedef struct table {
     velocity_errors cells[MOST][RESOLUTIONS][RATES][SPEEDS];
-    double cost[MOST][RATES]; /* ns a tick */
+    double cost[MOST][RATES]; /* ns per tick */
 } table;
 
-/* What is timed: three axes on counts, each at its own speed. */
+/* The timed work: three axes in counts, each at its own speed. */
 typedef struct timed {
     knurl_velocity estimator;
     uint32_t tick;
@@ -67,7 +66,7 @@ double velocity_cost(const velocity_contender *contender, double resolution, dou
     return cost.ns_median - empty.ns_median;
 }
 
-/* All of them again and again, so that a slow second of the machine is not one estimator's. */
+/* Times all estimators in turn, repeatedly, so that a slow second of the machine does not affect only one. */
 static void measure_costs(table *t, int count) {
     for (int i = 0; i < ROUNDS * count * RATES; i++) {
         const int c = i / RATES % count;

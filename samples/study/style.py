@@ -1,4 +1,4 @@
-"""What the pictures share: one palette, one type, one way to save.
+"""Shared by the pictures: palette, typeface, saving.
 
 SPDX-License-Identifier: MIT
 """
@@ -14,10 +14,10 @@ from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.patheffects import withStroke
 
 INK, GREY, RULE, PALE, ACCENT, SOFT, ASKED = "#1c2b33", "#77858c", "#c3ccd0", "#e9eef0", "#0f6e84", "#8cc3cb", "#d9662b"
-# Each method its colour, in every figure; S1 and S2 are kin of T1 and T3.
+# One colour per method in every figure; S1 and S2 have colours like T1 and T3.
 METHODS = {"T1": "#b9962f", "T2": "#8a7fb5", "T3": "#4f8a5b", "S1": ASKED, "S2": ACCENT, "bandlimited": "#a03c78"}
 SHADES = LinearSegmentedColormap.from_list("shades", ["#f6fafa", "#b9dde0", "#5fb0bb", "#0f6e84", "#093a4a"])
-HALO = [withStroke(linewidth=3, foreground="white")]  # of a label that lies on lines
+HALO = [withStroke(linewidth=3, foreground="white")]  # of a label on top of lines
 STYLE = {"font.family": "DejaVu Sans", "font.size": 9.5, "text.color": INK, "axes.labelcolor": INK,
          "axes.edgecolor": RULE, "axes.spines.top": False, "axes.spines.right": False, "xtick.color": GREY,
          "ytick.color": GREY, "xtick.labelsize": 8.5, "ytick.labelsize": 8.5, "axes.labelsize": 9.5,
@@ -26,8 +26,8 @@ STYLE = {"font.family": "DejaVu Sans", "font.size": 9.5, "text.color": INK, "axe
 
 
 class BadInput(Exception):
-    """One line for the user: which file, what was expected, what was found. Paths and cells in it
-    send nothing to a terminal."""
+    """One line for the user: file, expected and found value. Paths and cells in it cannot send escapes to a
+    terminal."""
 
     def __str__(self):
         return "".join(character if character.isprintable() else "?" for character in super().__str__())
@@ -37,7 +37,7 @@ INPUTS = []  # the files that were read: (device, inode)
 
 
 def open_input(path, **how):
-    """open() for reading; save() does not replace what was read, whatever it is called."""
+    """open() for reading; save() does not replace a file that was read, under any name."""
     file = open(path, encoding="utf-8", **how)
     found = os.fstat(file.fileno())
     INPUTS.append((found.st_dev, found.st_ino))
@@ -51,7 +51,7 @@ def say(ax, text, x=0.5, y=0.5, ha="center", va="center", size=8.5, color=GREY, 
 
 
 def read_table(folder, name):
-    """FOLDER/NAME as {column: array}: of floats where every cell is one (an empty cell is NaN), else of text."""
+    """FOLDER/NAME as {column: array}: of floats if every cell is one (an empty cell is NaN), otherwise of text."""
     path = os.path.join(folder, name)
     try:
         with open_input(path, newline="") as file:
@@ -71,7 +71,7 @@ def numbers(cells):
 
 
 def heading(figure, title, words, left=0.065):
-    """The title above, what is shown below it in grey."""
+    """The title, and below it a grey subtitle."""
     height = figure.get_figheight()
     figure.text(left, 1 - 0.30 / height, title, fontsize=16, fontweight="bold", va="center")
     figure.text(left, 1 - 0.57 / height, words, color=GREY, va="center")
@@ -82,8 +82,8 @@ def write_png(figure, file):
 
 
 def save(figure, out):
-    """Writes beside `out`, under a name that nobody can guess, and renames, so that half a picture never stands there.
-    What is no regular file (/dev/stdout, a FIFO) is written straight to."""
+    """Writes under an unpredictable name in the same folder and renames, so that `out` is never half a picture. Writes
+    directly if `out` is not a regular file (/dev/stdout, a FIFO)."""
     try:
         found = os.stat(out) if os.path.exists(out) else None
         if found and (found.st_dev, found.st_ino) in INPUTS:

@@ -1,5 +1,5 @@
 /* Figure 4: dominant component, net force and correlation of T1, T2 and T3 from 2 to 35 ms, A = 1 N at 1 kHz; over
- * whole numbers of the actual period, and beside it over the paper's own window. SPDX-License-Identifier: MIT */
+ * whole numbers of the actual period, and also over the paper's window. SPDX-License-Identifier: MIT */
 #include "study.h"
 #include "wave_options.h"
 
@@ -10,11 +10,11 @@
 #define AMPLITUDE   1.0
 #define FIRST       20  /* tenths of a millisecond: 2 ms */
 #define LAST        350 /* 35 ms */
-#define WINDOW      40  /* periods: the paper's */
-#define OVERSAMPLED 40  /* samples a tick: 40 kHz, the paper's */
+#define WINDOW      40  /* periods, as in the paper */
+#define OVERSAMPLED 40  /* samples per tick: 40 kHz, as in the paper */
 #define PI          3.141592653589793
 
-/* The paper's periods are the whole ones and 2.5 ms; the tenths between them are ours. */
+/* The paper's periods are whole milliseconds and 2.5 ms; the tenths in between are ours. */
 static int on_papers_grid(int tenths) {
     return tenths % 10 == 0 || tenths == 25;
 }
@@ -25,12 +25,12 @@ typedef struct measured {
     double net;
     double rms;
     double spurious;       /* share of power outside the dominant line and its odd harmonics */
-    double spurious_asked; /* outside the line that was asked for and its odd harmonics */
+    double spurious_asked; /* outside the requested line and its odd harmonics */
     double window_net;     /* the paper's window; NaN off its grid */
     study_line window_dominant;
 } measured;
 
-/* Of all points. */
+/* Findings over all points. */
 typedef struct findings {
     double worst_net[3];      /* largest |net|, our rule */
     double worst_net_at[3];   /* ms */
@@ -57,7 +57,7 @@ static int measure_window(const knurl_wave *wave, int tenths, measured *m) {
     }
     done = study_dominant(&signal, &m->window_dominant);
     const double x = PI * m->window_dominant.frequency / signal.update_rate_hz;
-    m->window_dominant.amplitude *= x / sin(x); /* a DFT of samples: study_dominant() has held them once more */
+    m->window_dominant.amplitude *= x / sin(x); /* a DFT of samples: undoes the second hold in study_dominant() */
     m->window_net = study_net(&signal);
     study_signal_free(&signal);
     return done;
@@ -108,7 +108,7 @@ static void write_numbers(json_writer *json, const char *const *keys, const doub
     }
 }
 
-/* A period of the paper's grid. */
+/* Writes a period of the paper's grid. */
 static void write_point(json_writer *json, int tenths, const measured m[3]) {
     static const char *const keys[] = {"dominant_amplitude", "dominant_period_ms", "net", "rms",
                                        "spurious",           "spurious_asked"};
@@ -143,7 +143,7 @@ static void keep_findings(int tenths, const measured m[3], findings *f) {
             f->worst_net[i] = fabs(m[i].net);
             f->worst_net_at[i] = period_ms;
         }
-        if (fabs(m[i].window_net - m[i].net) > f->false_net[i] + 1e-12) { /* never where the window's is NaN */
+        if (fabs(m[i].window_net - m[i].net) > f->false_net[i] + 1e-12) { /* false if the window's is NaN */
             f->false_net[i] = fabs(m[i].window_net - m[i].net);
             f->false_net_at[i] = period_ms;
         }

@@ -1,6 +1,6 @@
-/* Study `tracking`: what moves a position on that comes in counts, always within half a count of the measured one:
- * FOAW's velocity, its mean over some time (20 ms is built, knurl_velocity_track()), or a second-order observer.
- * SPDX-License-Identifier: MIT */
+/* Study `tracking`: methods to interpolate a position in counts, always within half a count of the measured one: by
+ * FOAW's velocity, by its mean over some time (the library uses 20 ms, knurl_velocity_track()), or by a second-order
+ * observer. SPDX-License-Identifier: MIT */
 #include "say.h"
 #include "steady.h"
 #include "study.h"
@@ -21,7 +21,7 @@
 #define TREMORS     40
 #define TREMOR_S    2.0
 
-/* mean: s, of the velocity; a count in `ticks` is the most that it is off a new one */
+/* mean: s, of the velocity; its largest error after a new count is a count in `ticks` */
 typedef struct way {
     const char *name;
     enum { VELOCITY, MEAN, BUILT, OBSERVER } how;
@@ -35,7 +35,7 @@ static const way ways[] = {{"velocity", VELOCITY, 0.0, 0.0},
                            {"mean of 30 ms", MEAN, 0.03, 10.0},
                            {"mean of 100 ms", MEAN, 0.1, 10.0},
                            {"observer", OBSERVER, 0.0, 0.0}};
-/* Hz; those of the paper's range, and about a count a tick on either grating */
+/* Hz; those of the paper's range, and about one count per tick on both gratings */
 static const double steady[] = {25.3,  31.7,  40.9,  52.6,  54.3,  55.2,  56.1,  60.7,  80.3,
                                 108.4, 110.7, 110.9, 140.3, 180.7, 220.9, 270.3, 300.7, 333.3,
                                 350.1, 380.7, 400.3, 420.3, 437.3, 439.7, 450.9, 462.3};
@@ -62,7 +62,7 @@ static int start(tracker *t, const way *kind, double ridge) {
            !knurl_velocity_prepare(KNURL_VELOCITY_FOAW, COUNT, RATE, &t->estimator);
 }
 
-/* Moves the place on. velocity: FOAW's. */
+/* Advances the position. velocity: FOAW's. */
 static void follow(tracker *t, double measured, double velocity) {
     const double w = 2.0 * PI * OBSERVER_HZ / RATE;
     const double off = t->kind->how == MEAN ? COUNT * RATE / t->kind->ticks : 0.0;
@@ -79,7 +79,7 @@ static void follow(tracker *t, double measured, double velocity) {
     t->place = fmin(fmax(t->place, measured - 0.5 * COUNT), measured + 0.5 * COUNT);
 }
 
-/* Returns where it takes x to be. */
+/* Returns the tracked position for x. */
 static double tick(tracker *t, double x, knurl_grating_output *out) {
     double position[3] = {floor(x / COUNT + 0.5) * COUNT, 0.0, 0.0};
     double velocity[3] = {0.0, 0.0, 0.0};
@@ -95,7 +95,7 @@ static double tick(tracker *t, double x, knurl_grating_output *out) {
     return position[0];
 }
 
-/* The worst shares over the speeds: false tones of all, felt ones to 440 Hz. */
+/* The worst shares over the speeds: false tones, and felt ones up to 440 Hz. */
 static int measure_steady(const way *kind, double ridge, double worst[2]) {
     static double heights[TICKS];
     worst[0] = 0.0;
@@ -120,7 +120,7 @@ static int measure_steady(const way *kind, double ridge, double worst[2]) {
     return 1;
 }
 
-/* Half cycles played of a tremor at places that are spread over a ridge of 0.2 mm, and those that it crosses. */
+/* Half cycles played and crossed by a tremor at positions spread over a ridge of 0.2 mm. */
 static int measure_tremor(const way *kind, double amplitude, double *played, double *crossed) {
     const double ridge = 0.2e-3;
     *played = 0.0;
@@ -144,8 +144,8 @@ static int measure_tremor(const way *kind, double amplitude, double *played, dou
     return 1;
 }
 
-/* A hand's speed wavers: 60 mm/s, by 10 % at 0.7 Hz and by 2 % at 3 Hz. How far the place strays from the true one,
- * less its own mean over 51 ms: rms in counts. */
+/* A hand's speed wavers: 60 mm/s, by 10 % at 0.7 Hz and by 2 % at 3 Hz. The error of the position, less its mean over
+ * 51 ms: rms in counts. */
 static int measure_wavering(const way *kind, double *strays) {
     enum { WINDOW = 51 };
     static double off[TICKS];

@@ -112,7 +112,7 @@ static int print_rows(FILE *f) {
     return 0;
 }
 
-/* What a method plays at 1 kHz from 0.055 mm positions, at a frequency that no whole ticks are a cycle of. */
+/* A method's signal at 1 kHz from 0.055 mm positions, at a frequency whose cycle is not a whole number of ticks. */
 static void print_shapes(json_writer *json) {
     study_contender c;
     json_open(json, "shapes", '{');
@@ -161,7 +161,7 @@ static int print_about(const char *folder) {
     return out_keep(&file);
 }
 
-/* The one panel: the same table, with how each method looks. */
+/* The single panel: the same table, with the shape of each method's signal. */
 static int print_panel(const char *folder) {
     out_file file;
     json_writer json;

@@ -1,6 +1,5 @@
-/* Study `transitions`: what happens to an event when the hand reverses, stops or lifts off, or when surface or material
- * change: whole ticks of a scene, at 200 Hz, for each tick of an event.
- * SPDX-License-Identifier: MIT */
+/* Study `transitions`: events that are interrupted because the hand reverses, stops or lifts off, or surface or
+ * material change: whole ticks of a scene, at 200 Hz, for each tick of an event. SPDX-License-Identifier: MIT */
 #include "study.h"
 
 #include "say.h"
@@ -12,12 +11,12 @@
 #define AMPLITUDE 1e-4   /* m */
 #define STIFFNESS 700.0  /* N/m */
 #define DEPTH     0.001  /* m: below every trough */
-#define SPEED     0.2    /* m/s: 5 ticks a cycle */
+#define SPEED     0.2    /* m/s: 5 ticks per cycle */
 #define FAST      0.47   /* m/s */
-#define EDGE      0.02   /* m: where the other surface begins */
-#define BEFORE    100    /* ticks; and up to 9 more, so that it happens anywhere in an event */
+#define EDGE      0.02   /* m: start of the other surface */
+#define BEFORE    100    /* ticks; and up to 9 more, so that the change occurs at any phase of an event */
 #define PHASES    10
-#define AFTER     45 /* ticks: before it comes to the other surface by itself */
+#define AFTER     45 /* ticks: before the HIP reaches the other surface */
 #define QUANTUM   0.055e-3
 #define METHODS   2
 
@@ -32,13 +31,13 @@ static const char *const names[TRANSITIONS] = {"reversal",
                                                "20 ticks at 470 Hz"};
 
 typedef struct outcome {
-    double settled; /* ms until the height is what it stays: 0 (S2), the position's (bandlimited) */
+    double settled; /* ms until the height is final: 0 (S2), the position's (bandlimited) */
     double step;    /* the largest change of height in a tick in contact, A */
-    double left;    /* the largest sum of an event that was played to its end, A ticks */
+    double left;    /* the largest sum of a completed event, A ticks */
     double force;   /* N: of the first tick after lift-off */
 } outcome;
 
-/* Where the HIP is at a tick: the event it is in begins at x = 0.75 of a cycle, and so on. */
+/* The HIP's position at a tick. Events start at x = 0.75 of a cycle, and so on. */
 static void place(int transition, int tick, int happens, double *x, double *z, double *speed) {
     const double step = SPEED / 1000.0;
     *speed = SPEED;
@@ -59,7 +58,7 @@ static void place(int transition, int tick, int happens, double *x, double *z, d
     } else if (transition == FASTER) {
         *speed = tick - happens < 20 ? FAST : SPEED;
         *x += (FAST - SPEED) / 1000.0 * (tick - happens < 20 ? tick - happens : 20);
-    } else if (transition == FLICKER) { /* a quantum either side of the edge at EDGE/2 + 1/4 cycle */
+    } else if (transition == FLICKER) { /* one quantum on each side of the edge at EDGE/2 + 1/4 cycle */
         *speed = 0.0;
         *x = 0.5 * EDGE + 0.25 / FS + QUANTUM * (tick % 2 ? 0.5 : -0.5);
     }
@@ -106,15 +105,15 @@ static knurl_result change_material(knurl_scene *scene, knurl_surface_id surface
     return knurl_scene_set_material(scene, surface, &material);
 }
 
-/* What is kept from tick to tick. */
+/* State between ticks. */
 typedef struct watch {
     double height, sum;
     int64_t event;
     uint32_t contacts;
-    knurl_surface_id surface; /* who leaves one has lifted off it */
+    knurl_surface_id surface; /* a change of surface counts as a lift-off */
 } watch;
 
-/* BANDLIMITED counts ridges, most of which are no events that sum to nothing: counts_ridges leaves the sums out. */
+/* BANDLIMITED counts ridges, most of which are not events with a zero sum: counts_ridges skips the sums. */
 static void judge(const knurl_tick_output *out, int since, int counts_ridges, watch *w, outcome *o) {
     if (out->contacts && w->contacts) {
         o->step = fmax(o->step, fabs(out->height - w->height) / AMPLITUDE);
@@ -135,7 +134,7 @@ static void judge(const knurl_tick_output *out, int since, int counts_ridges, wa
     w->surface = out->surface;
 }
 
-/* One method, one transition, begun in one tick of an event; the worst of several go into one outcome. */
+/* One method, one transition, started in one tick of an event; one outcome collects the worst of several. */
 static knurl_result run(int32_t method, int transition, int phase, FILE *csv, outcome *o) {
     knurl_scene *scene = NULL;
     knurl_surface_id left = 0;

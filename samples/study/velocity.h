@@ -13,11 +13,11 @@
 #include <stddef.h>
 
 #define VELOCITY_PERIOD    0.001 /* m: of the grating */
-#define VELOCITY_PHASES    8     /* runs a cell */
-#define VELOCITY_SPREAD    0.1   /* of the speed: the runs' speeds are within it, evenly */
+#define VELOCITY_PHASES    8     /* runs per cell */
+#define VELOCITY_SPREAD    0.1   /* of the speed: the runs' speeds are spread evenly over it */
 #define VELOCITY_WOBBLE    0.02  /* of the speed */
 #define VELOCITY_WOBBLE_HZ 9.0
-#define VELOCITY_STROKE_HZ 2.0 /* to and fro, where delay is measured */
+#define VELOCITY_STROKE_HZ 2.0 /* to and fro, to measure the delay */
 
 /** An estimator beside the library's. */
 enum { VELOCITY_LOW_PASS = 100 };
@@ -26,7 +26,7 @@ enum { VELOCITY_LOW_PASS = 100 };
 typedef struct velocity_contender {
     const char *name;
     int32_t method;   /**< KNURL_VELOCITY_; KNURL_VELOCITY_AUTO: FOAW as published: any window of up to 15 ticks,
-                           whatever the rate, the slope from its newest to its oldest sample, no backlash; or
+                           at every rate, the slope from its newest to its oldest sample, no backlash; or
                            VELOCITY_LOW_PASS */
     double cutoff_hz; /**< of the low pass */
 } velocity_contender;
@@ -34,36 +34,37 @@ typedef struct velocity_contender {
 /** All of them, ended by a null name. */
 extern const velocity_contender velocity_contenders[];
 
-/** A contender at work. */
+/** State of a contender. */
 typedef struct velocity_estimator {
     const velocity_contender *contender;
     knurl_velocity estimator;
     double resolution, rate;
     study_low_pass low_pass;
-    int64_t counts[16]; /**< as published: the newest first */
-    int seen;           /**< as published: how many of them there are */
+    int64_t counts[16]; /**< FOAW as published: the newest first */
+    int seen;           /**< FOAW as published: number of counts */
 } velocity_estimator;
 
-/** Starts it. 0, or 1 where the library refuses. */
+/** Starts it. 0, or 1 if the library returns an error. */
 int velocity_start(velocity_estimator *e, const velocity_contender *contender, double resolution, double rate);
 
-/** The velocity (m/s) at position x (m), which lies on a count. */
+/** The velocity (m/s) at position x (m), which is a whole number of counts. */
 double velocity_of(velocity_estimator *e, double x);
 
-/** What a tick of the library's estimator costs, three axes, ns. Negative where it is not the library's. */
+/** The time of a tick of the library's estimator, three axes, ns. Negative if it is not the library's. */
 double velocity_cost(const velocity_contender *contender, double resolution, double rate);
 
 typedef struct velocity_errors {
     double bias;         /**< m/s: mean of estimate less truth, at a steady speed */
     double rms;          /**< m/s: of the same */
     double delay;        /**< s: of the estimate behind the truth, in strokes to and fro of this highest speed */
-    double period_mean;  /**< |period that an event starts with / 1 mm over the true speed - 1|; NaN without events */
+    double period_mean;  /**< |period at an event's start / (1 mm / true speed) - 1|; NaN without events */
     double period_worst; /**< the largest of them */
     double drift;        /**< cycles played over cycles crossed, less 1 */
-    double events;       /**< how many started */
+    double events;       /**< number of events started */
 } velocity_errors;
 
-/** Runs a contender at `speed` (m/s) over positions in quanta of `resolution` (m). 0, or 1 where the library refuses.
+/** Runs a contender at `speed` (m/s) over positions in quanta of `resolution` (m). 0, or 1 if the library returns an
+ * error.
  */
 int velocity_measure(const velocity_contender *contender, double resolution, double rate, double speed,
                      velocity_errors *out);

@@ -5,10 +5,10 @@
 #include <string.h>
 
 #define TAU     6.283185307179586
-#define GOLDEN  2.399963229728653 /* radians: angles that fall anywhere */
-#define LEAD_S  0.25              /* windows fill, the low pass settles */
+#define GOLDEN  2.399963229728653 /* radians: spreads angles evenly */
+#define LEAD_S  0.25              /* for windows to fill and the low pass to settle */
 #define LEAST_S 4.0               /* of a run */
-#define CYCLES  20.0              /* of the grating, at least, in a run */
+#define CYCLES  20.0              /* of the grating in a run, at least */
 
 const velocity_contender velocity_contenders[] = {{"difference", KNURL_VELOCITY_DIFFERENCE, 0.0},
                                                   {"low pass, 10 Hz", VELOCITY_LOW_PASS, 10.0},
@@ -18,11 +18,11 @@ const velocity_contender velocity_contenders[] = {{"difference", KNURL_VELOCITY_
                                                   {"FOAW", KNURL_VELOCITY_FOAW, 0.0},
                                                   {NULL, 0, 0.0}};
 
-/* A hand on a line: where it is and how fast. */
+/* A hand on a line: its position and speed. */
 typedef struct hand {
     double speed, rate, resolution;
     double start; /* m */
-    double angle; /* where the wobble or the stroke begins */
+    double angle; /* start phase of the wobble or stroke */
 } hand;
 
 static hand hand_at(double speed, double rate, double resolution, int phase) {
@@ -36,7 +36,7 @@ static double in_counts(const hand *h, double x) {
     return floor(x / h->resolution + 0.5) * h->resolution;
 }
 
-/* Goes on at its speed, but for a wobble. */
+/* A steady speed with a wobble. */
 static double steady(const hand *h, double tick, double *speed) {
     const double t = tick / h->rate;
     const double omega = TAU * VELOCITY_WOBBLE_HZ;
@@ -44,7 +44,7 @@ static double steady(const hand *h, double tick, double *speed) {
     return h->start + h->speed * (t - VELOCITY_WOBBLE / omega * cos(omega * t + h->angle));
 }
 
-/* To and fro. */
+/* A stroke to and fro. */
 static double stroke(const hand *h, double tick, double *speed) {
     const double omega = TAU * VELOCITY_STROKE_HZ;
     *speed = h->speed * cos(omega * tick / h->rate + h->angle);
@@ -91,7 +91,7 @@ double velocity_of(velocity_estimator *e, double x) {
     return velocity[0];
 }
 
-/* S2 on a grating of 1 mm, as the estimate drives it. */
+/* S2 on a grating of 1 mm, driven by the estimate. */
 typedef struct player {
     knurl_grating grating;
     knurl_grating_state state;
@@ -99,7 +99,7 @@ typedef struct player {
     double played; /* cycles */
 } player;
 
-/* One tick; the period that an event starts with is judged. */
+/* Plays one tick, and judges the period at an event's start. */
 static void play(player *p, double speed, double truth, velocity_errors *sum) {
     const double velocity[2] = {speed, 0.0};
     const double nowhere[2] = {0.0, 0.0};
@@ -150,7 +150,7 @@ static double run_steady(velocity_estimator *e, const hand *h, velocity_errors *
     return end - lead;
 }
 
-/* One run of strokes: the estimate's part in step with the truth and a quarter behind it. */
+/* One run of strokes: the estimate's components in phase with the truth and a quarter cycle behind it. */
 static void run_strokes(velocity_estimator *e, const hand *h, double parts[2]) {
     const int lead = (int)(h->rate / VELOCITY_STROKE_HZ);
     const int end = lead + (int)(2.0 * h->rate / VELOCITY_STROKE_HZ); /* whole strokes */

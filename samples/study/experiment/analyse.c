@@ -1,4 +1,4 @@
-/* Analysis of all sessions' answers, and how many subjects are needed. SPDX-License-Identifier: MIT */
+/* Analysis of all sessions' answers, and the number of subjects needed. SPDX-License-Identifier: MIT */
 #include "experiment.h"
 
 #include "inference.h"
@@ -10,7 +10,7 @@
 static void print_experiment(const exp_records *records, const exp_design *d) {
     size_t trials = 0;
     size_t subjects = 0;
-    size_t first = 0; /* answers that chose what came first */
+    size_t first = 0; /* answers for the first stimulus */
     for (size_t i = 0; i < records->count; i++) {
         const exp_record *r = &records->rows[i];
         size_t before = 0;
@@ -35,7 +35,7 @@ static void print_experiment(const exp_records *records, const exp_design *d) {
     }
 }
 
-/* Every pair of methods that a row of experiment 4 compares, at its first row. */
+/* Every pair of methods that a row of experiment 4 compares, printed at its first row. */
 static void print_comparisons(const exp_records *records) {
     for (size_t i = 0; i < records->count; i++) {
         exp_design design;

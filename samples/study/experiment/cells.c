@@ -16,7 +16,7 @@ static const char *const rules[] = {"point", "one-sided", "two-sided"};
 typedef struct cell {
     uint32_t n, m; /* trials; those in which the second method was preferred */
     double force_limit_ticks;
-    uint32_t subjects[2]; /* who preferred a method in more than half of their trials; the others have no majority */
+    uint32_t subjects[2]; /* subjects who preferred a method in more than half of their trials */
 } cell;
 
 static int is_in(const exp_record *r, const exp_design *d, double period, double amplitude, int32_t sound) {
@@ -68,7 +68,7 @@ static const char *verdict_name(const exp_design *d, int who) {
     return who < 0 ? "-" : d->names[who];
 }
 
-/* The probability of so many or more for whichever was chosen more often. */
+/* Prints the probability of at least this many answers for the method that was chosen more often. */
 static void print_cell(const exp_design *d, double period, double amplitude, int32_t sound, const cell *c,
                        uint32_t won[3][2]) {
     const uint32_t more = c->m > c->n - c->m ? c->m : c->n - c->m;
@@ -112,7 +112,7 @@ static void print_heading(const exp_design *d) {
     say(stdout, " %10s\n", "limited");
 }
 
-/* The counts that the rules ask for at n trials, or that none is enough. */
+/* Prints the counts that the rules require at n trials, or that no count is enough. */
 static void print_thresholds(const exp_design *d, uint32_t n) {
     printf("needed of %u trials at 0.05/%u:", (unsigned)n, (unsigned)d->family);
     for (int32_t rule = 0; rule < 3; rule++) {
@@ -126,7 +126,7 @@ static void print_thresholds(const exp_design *d, uint32_t n) {
     putchar('\n');
 }
 
-/* Adds n to the numbers of trials a cell that were seen, once. */
+/* Adds n to the list of trials per cell, unless it is there. */
 static void note(uint32_t n, uint32_t *seen, uint32_t *count, uint32_t room) {
     uint32_t i = 0;
     while (i < *count && seen[i] != n) {
@@ -137,7 +137,7 @@ static void note(uint32_t n, uint32_t *seen, uint32_t *count, uint32_t room) {
     }
 }
 
-/* The cells that have trials, in order, with their places; returns how many. */
+/* Collects the cells that have trials, in order, with their indices; returns their number. */
 static uint32_t collect(const exp_records *records, const exp_design *d, cell cells[4 * EXP_PERIODS],
                         uint32_t places[4 * EXP_PERIODS]) {
     uint32_t count = 0;

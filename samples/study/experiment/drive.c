@@ -6,7 +6,8 @@
 
 volatile sig_atomic_t exp_interrupted;
 
-/* Every tick: both buttons, the force, then whether the question stands, then a button. [haptic thread] */
+/* Every tick: checks both buttons, sets the force, then checks whether a question is open, then a button. [haptic
+ * thread] */
 static void on_tick(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user) {
     exp_run *run = user;
     if ((sample->buttons & 3u) == 3u) {
@@ -16,7 +17,7 @@ static void on_tick(uint64_t tick, const knurl_device_sample *sample, double for
         return; /* the force stays zero */
     }
     run->force(run, tick, sample, force);
-    const uint32_t fresh = sample->buttons & ~run->buttons; /* held down before does not count */
+    const uint32_t fresh = sample->buttons & ~run->buttons; /* buttons that were already down do not count */
     run->buttons = sample->buttons;
     if (tick < run->question_tick || !__atomic_load_n(&run->ready, __ATOMIC_ACQUIRE)) {
         return;
@@ -42,11 +43,11 @@ static void show_cue(const exp_session *session, const exp_run *run, uint64_t ti
     *shown = now;
 }
 
-/* The question stands: puts it once, then looks for the answer. Returns 1 or 2, 0 if there is no answer yet, -1 if
- * there can be none. */
+/* Asks the question once, then polls for the answer. Returns 1 or 2, 0 if there is no answer yet, -1 at the end of
+ * input. */
 static int ask(const exp_session *session, exp_run *run, int *asked) {
     if (!*asked) {
-        os_forget_keys(); /* typed before the question: no answer to it */
+        os_forget_keys(); /* keys typed before the question are no answer */
         say(stderr, "%s", run->question);
         *asked = 1;
     }
@@ -57,7 +58,7 @@ static int ask(const exp_session *session, exp_run *run, int *asked) {
     return (int)__atomic_load_n(&run->pressed, __ATOMIC_ACQUIRE);
 }
 
-/* In real time, until an answer or anything else that ends it. */
+/* Waits in real time for an answer or another end. */
 static int wait_for_end(const exp_session *session, exp_run *run, knurl_loop *loop, exp_outcome *outcome) {
     const char *shown = NULL;
     int asked = 0;
@@ -103,7 +104,7 @@ static knurl_result make_loop(const exp_session *session, exp_run *run, knurl_lo
     desc.force_callback = on_tick;
     desc.user = run;
     desc.update_rate_hz = EXP_RATE;
-    /* 0 as printed: 2.1 N; a real device's own protection has the last word */
+    /* 0: the paper's 2.1 N without protections; a real device's own protection still applies */
     desc.protections = session->design->protections & KNURL_PROTECT_HEAT;
     desc.tick_limit = session->answers == EXP_SIMULATED || !run->question ? run->end_tick : 0;
     const knurl_result result = knurl_loop_create(&desc, loop);

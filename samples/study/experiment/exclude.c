@@ -1,4 +1,4 @@
-/* Which rows of experiment 4 do not count, by rules that are written down before there are data.
+/* Excludes rows of experiment 4 by rules that are fixed before there are data.
  * SPDX-License-Identifier: MIT */
 #include "experiment.h"
 
@@ -41,7 +41,7 @@ static const char *subject_fault(const subject_rows *c) {
     if (c->taught < EXP_TRAINING) {
         return "no complete training";
     }
-    if (c->right * EXP_TRAINING < EXP_RIGHT_LEAST * c->taught) { /* one who had the training twice: of all 12 */
+    if (c->right * EXP_TRAINING < EXP_RIGHT_LEAST * c->taught) { /* of all 12 if the subject had the training twice */
         return "too few right answers in training";
     }
     return c->second > most || c->asked - c->second > most ? "nearly always the same side" : NULL;

@@ -11,7 +11,7 @@
 #include <signal.h>
 #include <stdio.h>
 
-/* Who answers. */
+/* Sources of answers. */
 enum { EXP_KEYBOARD = 0, EXP_BUTTONS = 1, EXP_SIMULATED = 2 };
 
 #define EXP_PERIODS     12                  /* at most, in one experiment */
@@ -30,13 +30,13 @@ typedef struct exp_design {
     const char *names[2];    /* "T1", "T3" */
     const double *periods;   /* ms; in experiment 3 the spatial periods, mm */
     uint32_t period_count;   /* 12, 12, 3, 3 */
-    double amplitudes[2];    /* N: low, high; with gratings mm: reduced, as printed */
-    uint32_t blocks;         /* each cell comes once in each */
+    double amplitudes[2];    /* N: low, high; with gratings mm: reduced, as in the paper */
+    uint32_t blocks;         /* each has every cell once */
     uint32_t family;         /* comparisons that Bonferroni's correction divides 0.05 by: 48, 48, 3, 6 */
     const char *period_unit; /* "ms" or "mm" */
     const char *force_unit;  /* "N" or "mm" */
     uint32_t scan_ticks;     /* with gratings: the least time of a trial */
-    uint32_t protections;    /* KNURL_PROTECT_; 0: as printed */
+    uint32_t protections;    /* KNURL_PROTECT_; 0: as in the paper */
 } exp_design;
 
 #define EXP_COMPARE 4
@@ -44,18 +44,19 @@ typedef struct exp_design {
 /* 1, 2, 3; null for any other. */
 const exp_design *exp_design_of(int32_t experiment);
 
-/* Experiment 4 for two of the library's methods, in either order. TOOL_USAGE, having said why, if they are the same. */
+/* Experiment 4 for two of the library's methods, in either order. TOOL_USAGE, after printing the reason, if they are
+ * the same. */
 int exp_compare(int32_t one, int32_t other, exp_design *design);
 
 /* 1: two gratings are compared, not two vibrations. */
 int exp_has_gratings(const exp_design *design);
 
 /* Figure 3's neighbours of a medium period (ms): out[0] the longer (low frequency), out[1] the medium, out[2] the
- * shorter. Among them is 2.5 ms: it is between 3 ms and 2 ms. */
+ * shorter. They include 2.5 ms, between 3 ms and 2 ms. */
 void exp_neighbours(double medium_ms, double out[3]);
 
-/* What makes a grating of the training worse, after the three faults that the paper's subjects are shown: a frequency
- * that does not follow the speed, a rough feeling, a net force. */
+/* Faults of a grating in the training, the three that the paper's subjects are shown: a frequency that does not follow
+ * the speed, a rough feeling, a net force. */
 enum { EXP_GOOD = 0, EXP_STEADY = 1, EXP_ROUGH = 2, EXP_PUSH = 3 };
 
 typedef struct exp_trial {
@@ -70,13 +71,13 @@ typedef struct exp_trial {
  * first: the worst three of each intensity, or each fault of a grating on either side. Blocks hold the intensities in
  * random order, each of those the periods in random order, the second method first in half of them. In experiment 4
  * blocks come in pairs, and the second has every cell in the opposite order to the first: each order occurs equally
- * often in each cell, for each subject. reduced: the gratings' amplitude. Returns how many. */
+ * often in each cell, for each subject. reduced: the gratings' amplitude. Returns their number. */
 uint32_t exp_plan(const exp_design *design, uint64_t seed, int reduced, int training, exp_trial trials[EXP_MAX_TRIALS]);
 
 /* 1: the answer to a trial of the training was the better one; methods[side] was chosen. */
 int exp_is_right(const exp_design *design, const exp_trial *trial, int side);
 
-/* The next of a row of random numbers (splitmix64), [0, 1). */
+/* The next random number (splitmix64), [0, 1). */
 double exp_random(uint64_t *state);
 void exp_shuffle(uint32_t *items, uint32_t count, uint64_t *state);
 
@@ -94,7 +95,7 @@ typedef struct exp_stimulus {
     double push[2];         /* N, added to the medium: a bad progression of the training */
 } exp_stimulus;
 
-/* 0, or TOOL_FAILURE having said why. */
+/* 0, or TOOL_FAILURE after printing the reason. */
 int exp_progression(int32_t method, const double periods_ms[3], double amplitude, knurl_wave waves[3]);
 int exp_stimulus_init(const exp_trial *trial, exp_stimulus *stimulus);
 
@@ -113,10 +114,10 @@ typedef struct exp_session {
     knurl_device_info info;
 } exp_session;
 
-/* What a trial came to. */
+/* Result of a trial. */
 typedef struct exp_outcome {
     int32_t chosen;               /* 0: the first (left), 1: the second (right) */
-    double rt_s;                  /* from when the question was put; 0 if simulated */
+    double rt_s;                  /* from the question to the answer; 0 if simulated */
     uint64_t ticks;               /* played, restarts not counted */
     uint64_t force_limit_ticks;   /* ticks whose force the device could not give in full */
     uint64_t above_nyquist_ticks; /* ticks whose temporal frequency was above half the update rate */
@@ -127,48 +128,49 @@ typedef struct exp_outcome {
     uint64_t softer_ticks; /* with gratings: ticks in which the passivity controller softened them */
 } exp_outcome;
 
-/* Plays all trials, asks, writes session->out anew after each (complete at any time), says what was done. Goes on after
- * the last trial in the file if that is the beginning of this session. An exit code. */
+/* Plays all trials, asks, rewrites session->out after each (complete at any time), and prints a summary. If the file
+ * has the first trials of this session, continues after them. Returns an exit code. */
 int exp_run_session(exp_session *session);
 
-/* How many of a session's trials its file holds: *done, and *text, the file's (free it; null: there is none).
- * TOOL_FAILURE having said why the file cannot be gone on with or replaced. */
+/* Finds the number of a session's trials in its file, *done, and the file's text, *text (free it; null: no file).
+ * TOOL_FAILURE, after printing the reason, if the file can neither be continued nor replaced. */
 int exp_resume(const exp_session *session, const exp_trial *trials, uint32_t count, uint32_t *done, char **text);
 
-/* Without a force, as long as the subject likes: at a break at least a minute. *stopped: 1 if they end the session. */
+/* A rest without force, as long as the subject likes, in a break at least a minute. *stopped: 1 if they end the
+ * session. */
 int exp_rest(const exp_session *session, int is_break, int *stopped);
 
-/* Shows what is good and bad, before the training's trials. *stopped: as exp_rest() has it. */
+/* Demonstrates good and bad stimuli before the training's trials. *stopped: as for exp_rest(). */
 int exp_demonstrate(const exp_session *session, int *stopped);
 
-/* The same with a stimulus of any kind; question null: nobody is asked. */
+/* The same with a stimulus of any kind; question null: asks nothing. */
 int exp_play_stimulus(const exp_session *session, const exp_stimulus *stimulus,
                       const char *(*cue)(uint64_t tick, void *), void *user, const char *question,
                       exp_outcome *outcome);
 int exp_play_temporal(const exp_session *session, const exp_trial *trial, exp_outcome *outcome);
 int exp_play_gratings(const exp_session *session, const exp_trial *trial, exp_outcome *outcome);
 
-/* What the haptic thread and the program share while a loop runs. */
+/* Data shared by the haptic thread and the program while a loop runs. */
 typedef struct exp_run {
     /* set before; `force` is called every tick and fills in N, device axes; user is the player's */
     void (*force)(struct exp_run *run, uint64_t tick, const knurl_device_sample *sample, double force[3]);
-    const char *(*cue)(uint64_t tick, void *cue_user); /* what the subject reads at a tick; "" for nothing */
+    const char *(*cue)(uint64_t tick, void *cue_user); /* text for the subject at a tick; "": no text */
     void *cue_user;
     const char *question; /* null: the loop ends at end_tick */
     void *user;
     uint64_t question_tick; /* answers count from here on, if `ready` */
     uint64_t end_tick;      /* simulated answers, or no question: the loop ends here */
-    /* atomics, which the haptic thread writes */
-    uint32_t left;    /* 1: the trial is to be begun anew */
-    uint32_t ready;   /* 1: the question may be put as far as `force` is concerned */
-    uint32_t asking;  /* 1: the question stands */
-    uint32_t pressed; /* 0, or the button that was pressed while it did: 1, 2 */
+    /* atomics, written by the haptic thread */
+    uint32_t left;    /* 1: the trial must be restarted */
+    uint32_t ready;   /* 1: `force` allows the question */
+    uint32_t asking;  /* 1: the question is open */
+    uint32_t pressed; /* 0, or the button that was pressed meanwhile: 1, 2 */
     uint32_t stopped; /* 1: both buttons were down; the force is zero from then on */
-    uint32_t buttons; /* the haptic thread's own: as last seen */
+    uint32_t buttons; /* the last state; haptic thread only */
 } exp_run;
 
-/* Runs a loop to its end: an answer, the hand's leaving, both buttons, or end_tick. TOOL_FAILURE having said why: lost
- * device, end of input; TOOL_INTERRUPTED and the signal's number. */
+/* Runs a loop to its end: an answer, the hand's leaving, both buttons, or end_tick. TOOL_FAILURE after printing the
+ * reason: lost device, end of input; TOOL_INTERRUPTED plus the signal's number. */
 int exp_drive(const exp_session *session, exp_run *run, exp_outcome *outcome);
 
 /* The signal's number after Ctrl-C. */
@@ -176,19 +178,19 @@ extern volatile sig_atomic_t exp_interrupted;
 
 /* --- simulated.c --- */
 
-/* How bad a temporal signal is to the simulated answerer: |net force| (N) plus the spurious share of its power. */
+/* The badness of a temporal signal for the simulated subject: |net force| (N) plus the spurious share of its power. */
 double exp_badness(int32_t method, double period_ms, double amplitude);
 
-/* The same of a progression around a medium period, the mean of its three. */
+/* The same for a progression around a medium period, the mean of its three. */
 double exp_progression_badness(int32_t method, double medium_ms, double amplitude);
 
-/* The same of a grating (mm) played at 1 kHz, the mean over steady speeds of 10 to 250 mm/s: what pushes for 0.1 s (N
- * at 0.7 N/mm), plus the share of its power that is more than 20 % of f_t from the ridges' tones, plus how far the
- * cycles played are from those crossed (their ratio less 1, at most 1). Works for every method of the library's table.
+/* The same for a grating (mm) played at 1 kHz, the mean over steady speeds of 10 to 250 mm/s: its push over 0.1 s (N at
+ * 0.7 N/mm), plus the share of its power that is more than 20 % of f_t from the ridges' tones, plus the drift (the
+ * ratio of cycles played to crossed, less 1, at most 1). Works for every method of the library's table.
  */
 double exp_grating_badness(int32_t method, double period_mm, double amplitude_mm);
 
-/* The simulated answer, 0 or 1: the less bad one, with logistic noise; in training the right one. state: of
+/* The simulated answer, 0 or 1: the better one, with logistic noise; in training the right one. state: for
  * exp_random(). */
 int32_t exp_simulated_answer(const exp_design *design, const exp_trial *trial, uint64_t *state);
 
@@ -217,18 +219,18 @@ extern const char *const exp_fault_names[4]; /* by EXP_GOOD, ... */
 void exp_write_record(FILE *stream, const exp_session *session, uint32_t number, const exp_trial *trial,
                       const exp_outcome *outcome);
 
-/* Adds a file's rows. 0, or TOOL_FAILURE having said which line holds what. Free rows with free(). */
+/* Adds a file's rows. 0, or TOOL_FAILURE after printing the line of the error. Free rows with free(). */
 int exp_read_records(const char *path, exp_records *records);
 
-/* The line without its end. */
+/* Removes the line end. */
 void exp_chop(char *line);
 
-/* --- exclude.c: experiment 4's rules, written down before there are data --- */
+/* --- exclude.c: experiment 4's rules, fixed before there are data --- */
 
-#define EXP_RIGHT_LEAST 5     /* of each six trials of training; else the subject is excluded */
-#define EXP_SIDE_MOST   0.9   /* share of the answers for one side; else the subject is excluded */
-#define EXP_CONTACT_S   3.0   /* with each grating; else the trial is excluded, as for the next two */
-#define EXP_LATE_SHARE  0.001 /* of a trial's ticks that came late */
+#define EXP_RIGHT_LEAST 5     /* of each six trials of training; otherwise the subject is excluded */
+#define EXP_SIDE_MOST   0.9   /* share of the answers for one side; otherwise the subject is excluded */
+#define EXP_CONTACT_S   3.0   /* with each grating; otherwise the trial is excluded, as for the next two */
+#define EXP_LATE_SHARE  0.001 /* of late ticks in a trial */
 #define EXP_LIMIT_SHARE 0.01  /* of a trial's ticks whose force was limited, or whose wall was softened */
 
 /* Marks the rows that do not count and prints why. */
@@ -236,7 +238,7 @@ void exp_exclude(exp_records *records);
 
 /* --- analyse.c, cells.c --- */
 
-/* Reads the files, prints the analysis. An exit code. */
+/* Reads the files, prints the analysis. Returns an exit code. */
 int exp_analyse(int count, char *const *paths);
 
 /* Prints the cells of one experiment and pair of methods. */
@@ -245,7 +247,7 @@ void exp_print_cells(const exp_records *records, const exp_design *design);
 /* 1: the record is one of this experiment and pair of methods. */
 int exp_is_of(const exp_record *record, const exp_design *design);
 
-/* Prints how many subjects are needed for which effect. */
+/* Prints the number of subjects needed for each effect. */
 typedef struct exp_power {
     double repetitions, comparisons, correlation, power;
 } exp_power;

@@ -5,11 +5,11 @@
 #include <string.h>
 
 #define STIFFNESS   700.0 /* N/m: K = 0.7 N/mm (IV-C4) */
-#define GAP         0.005 /* m from the middle to a plate's edge; the wall stands there */
+#define GAP         0.005 /* m from the middle to a plate's edge, the position of the wall */
 #define HALF_WIDTH  0.035 /* m of a plate, along x */
 #define HALF_LENGTH 0.035 /* m along z */
 #define WALL        0.015 /* m above the plates */
-#define PRESS       0.001 /* m below the lowest trough: where the simulated hand wants to be */
+#define PRESS       0.001 /* m below the lowest trough: target of the simulated hand */
 #define PUSH        0.5   /* N, upwards: the paper's bad progression with a net force */
 #define ROUGH       0.35  /* N: experiment 2's lower intensity */
 
@@ -17,7 +17,7 @@ typedef struct explorer {
     knurl_scene *scene;
     knurl_surface_id surfaces[2];
     uint64_t contacts[2]; /* ticks */
-    int32_t wanted;       /* simulated: the side that is stroked; -1: both, before the question may be put */
+    int32_t wanted;       /* simulated: the side that is stroked; -1: both, before the question */
     uint32_t scan_ticks;
     const exp_trial *trial;
     knurl_wave wave; /* of the side with a fault, in contact */
@@ -49,7 +49,7 @@ static const char *cue(uint64_t tick, void *user) {
 
 static const double upward[3] = {0.0, 1.0, 0.0};
 
-/* normal: where the plate's front looks. */
+/* normal: direction of the plate's front. */
 static knurl_result add_plane(knurl_scene *scene, const double centre[3], const double half[2], const double normal[3],
                               const knurl_material_desc *material, knurl_surface_id *id) {
     knurl_plane_desc plane;
@@ -98,7 +98,7 @@ static knurl_result configure(knurl_scene *scene, const exp_session *session) {
     return knurl_scene_configure_hip(scene, 0, &hip);
 }
 
-/* A fault's vibration: 20 Hz at any speed, as strong as the ridges; or 29 ms of T2, the paper's rough one. */
+/* A fault's vibration: 20 Hz at any speed, as strong as the ridges; or T2 at 29 ms, the paper's rough one. */
 static knurl_result make_fault(const exp_trial *trial, knurl_wave *wave) {
     const int is_rough = trial->faults[0] == EXP_ROUGH || trial->faults[1] == EXP_ROUGH;
     return is_rough ? knurl_wave_prepare(KNURL_WAVE_T2, 0.029, ROUGH, EXP_RATE, wave)
@@ -136,7 +136,7 @@ static knurl_result stroke(const exp_session *session, const exp_trial *trial, i
     return knurl_fake_set_stroke(session->device, &desc);
 }
 
-/* One loop over one scene. side: the one that the fake device strokes for half the time; -1: a person has both. */
+/* One loop over one scene. side: the one that the fake device strokes for half the time; -1: both, for a person. */
 static int explore(const exp_session *session, const exp_trial *trial, int side, exp_outcome *sum) {
     explorer e;
     exp_run run;
@@ -159,7 +159,7 @@ static int explore(const exp_session *session, const exp_trial *trial, int side,
     if (build(session, trial, &e) || (side >= 0 && stroke(session, trial, side))) {
         code = tool_error(TOOL_FAILURE, "%s", knurl_error_message());
     } else if (!session->fast) {
-        (void)knurl_scene_lock_memory(e.scene); /* if it is not allowed, a trial works all the same */
+        (void)knurl_scene_lock_memory(e.scene); /* optional: a trial works without it */
     }
     code = code ? code : exp_drive(session, &run, &outcome);
     if (e.scene) {

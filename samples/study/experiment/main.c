@@ -69,7 +69,7 @@ static int read_options(int argc, char **argv, options *o) {
     return tool_parse(argc, argv, known, sizeof known / sizeof *known, NULL);
 }
 
-/* 0 or 1 for the first or second word, -1 for neither. */
+/* Returns 0 or 1 for the first or second word, -1 for any other. */
 static int32_t choose(const char *text, const char *first, const char *second) {
     return strcmp(text, first) == 0 ? 0 : strcmp(text, second) == 0 ? 1 : -1;
 }
@@ -84,7 +84,7 @@ static int read_seed(const char *text, exp_session *s) {
                    ? TOOL_OK
                    : usage("--seed", "a whole number from 0 to 4294967295", text);
     }
-    s->seed = 2166136261u; /* FNV-1a: another order for every subject, the same one every time */
+    s->seed = 2166136261u; /* FNV-1a: a different but reproducible order for every subject */
     for (const char *c = s->subject; *c; c++) {
         s->seed = ((s->seed ^ (unsigned char)*c) * 16777619u) & 0xffffffffu;
     }
@@ -157,7 +157,7 @@ static void on_signal(int number) {
     exp_interrupted = number;
 }
 
-/* The file's name without --out. */
+/* The default name of the file. */
 static void name_file(const exp_session *s, char *path, size_t size) {
     const exp_design *d = s->design;
     const char *amplitude = s->reduced ? "reduced" : "as-printed";
@@ -173,11 +173,11 @@ static void name_file(const exp_session *s, char *path, size_t size) {
 
 static int open_and_run(exp_session *s) {
     const knurl_result result = knurl_device_open(s->uri, &s->device);
-    if (result) { /* a device that exists and cannot be had is a failure; a name that is none is wrong usage */
+    if (result) { /* a device that cannot be opened is a failure; an unknown name is wrong usage */
         return tool_error(result == KNURL_ERROR_UNSUPPORTED ? TOOL_FAILURE : TOOL_USAGE, "--device: %s",
                           knurl_error_message());
     }
-    (void)knurl_device_zero_on_exit(0); /* before the handler below, which ends a session by the ramp */
+    (void)knurl_device_zero_on_exit(0); /* before the handler below, which ends a session with a ramp */
     os_on_interrupt(on_signal);
     knurl_device_info_init(&s->info, sizeof s->info);
     const int code = knurl_device_get_info(s->device, &s->info) ? tool_error(TOOL_FAILURE, "%s", knurl_error_message())
@@ -186,7 +186,7 @@ static int open_and_run(exp_session *s) {
     return code;
 }
 
-/* arguments: what follows the experiment, options first. */
+/* arguments: those after the experiment, options first. */
 static int run(int argc, char **argv, const exp_design *design) {
     options o;
     exp_session s;

@@ -10,8 +10,8 @@ static void number_and_shuffle(uint32_t *items, uint32_t count, uint64_t *state)
     exp_shuffle(items, count, state);
 }
 
-/* The three periods of one intensity at which the rival is the worst, by the measures that the simulated answerer goes
- * by: the paper does not print its six. */
+/* The three periods of one intensity at which the rival is worst, by the simulated subject's measures: the paper does
+ * not print its six. */
 static void plan_worst(const exp_design *design, double amplitude, exp_trial *trials) {
     double badness[EXP_PERIODS];
     for (uint32_t i = 0; i < design->period_count; i++) {
@@ -28,8 +28,8 @@ static void plan_worst(const exp_design *design, double amplitude, exp_trial *tr
     }
 }
 
-/* Each fault twice, once on either side and with either method. 4 mm is not among the periods that are tested, and at a
- * hand's speeds every method plays it well. */
+/* Each fault twice, on each side and with each method. 4 mm is not among the tested periods, and every method plays it
+ * well at a hand's speeds. */
 static void plan_faults(const exp_design *design, double amplitude, exp_trial *trials) {
     for (int32_t i = 0; i < EXP_TRAINING; i++) {
         trials[i].period = EXP_TRAINING_MM;
@@ -50,7 +50,7 @@ static void plan_training(const exp_design *design, uint64_t seed, double amplit
     } else {
         plan_worst(design, design->amplitudes[0], planned);
         plan_worst(design, design->amplitudes[1], planned + EXP_TRAINING / 2);
-        for (uint32_t i = 0; i < EXP_TRAINING; i++) { /* the better one first in half of them */
+        for (uint32_t i = 0; i < EXP_TRAINING; i++) { /* the better one is first in half of them */
             planned[i].methods[0] = design->methods[i % 2];
             planned[i].methods[1] = design->methods[!(i % 2)];
         }
@@ -62,7 +62,7 @@ static void plan_training(const exp_design *design, uint64_t seed, double amplit
 }
 
 /* One intensity's trials in one block: every period once, in random order; the second method first in half of them,
- * drawn apart from the periods; if their number is odd, chance has the last one. */
+ * drawn independently of the periods; if their number is odd, the last one is random. */
 static void plan_pairing(const exp_design *design, uint32_t block, double amplitude, uint64_t *state,
                          exp_trial *trials) {
     uint32_t periods[EXP_PERIODS];

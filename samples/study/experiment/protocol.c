@@ -3,8 +3,8 @@
 
 #include <string.h>
 
-#define EXP_3_TICKS   60000 /* at least one minute a pair (IV-C4) */
-#define COMPARE_TICKS 30000 /* a pair; each comes four times */
+#define EXP_3_TICKS   60000 /* at least one minute per pair (IV-C4) */
+#define COMPARE_TICKS 30000 /* per pair; each occurs four times */
 
 /* Section IV-A3: the odd periods within 43.1-500 Hz, and 400 Hz. */
 static const double temporal_periods[] = {23, 21, 19, 17, 15, 13, 11, 9, 7, 5, 3, 2.5};

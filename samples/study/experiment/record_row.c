@@ -67,7 +67,7 @@ static int read_cell(const record_place *at, char *const *cells, const exp_desig
     return TOOL_OK;
 }
 
-/* What was played, in which order, and the answer. */
+/* The stimuli, their order, and the answer. */
 static int read_trial(const record_place *at, char *const *cells, const exp_design *d, exp_record *r) {
     int32_t preferred = 0;
     int code = read_cell(at, cells, d, r);
@@ -129,7 +129,7 @@ static int read_design(const record_place *at, char *const *cells, exp_record *r
                                     : exp_compare(methods[0], methods[1], design);
 }
 
-/* Whole numbers without sign or blanks; the seed may be as long as it was given. */
+/* Whole numbers without sign or blanks; the seed may have as many digits as were given. */
 static int read_count(const record_place *at, const char *column, const char *cell, uint64_t *value) {
     *value = strtoull(cell, NULL, 10);
     return *cell && strspn(cell, "0123456789") == strlen(cell) && *value <= 4294967295u
@@ -138,7 +138,7 @@ static int read_count(const record_place *at, const char *column, const char *ce
 }
 
 int record_read(const record_place *at, char *const *cells, exp_record *r) {
-    exp_design design = *exp_design_of(1); /* until it is read */
+    exp_design design = *exp_design_of(1); /* default until it is read */
     uint64_t number = 0;
     memset(r, 0, sizeof *r);
     int code = read_design(at, cells, r, &design);

@@ -32,13 +32,13 @@ enum {
     COLUMNS
 };
 
-/* Where a row is, for messages. */
+/* Position of a row, for messages. */
 typedef struct record_place {
     const char *path;
     unsigned long line;
 } record_place;
 
-/* Checks a row's cells (COLUMNS of them). TOOL_FAILURE, having said which is wrong. */
+/* Checks a row's cells (COLUMNS of them). TOOL_FAILURE after printing the wrong one. */
 int record_read(const record_place *at, char *const *cells, exp_record *record);
 
 #endif

@@ -20,7 +20,7 @@ static int same_trial(const exp_record *a, const exp_record *b) {
            strcmp(a->subject, b->subject) == 0;
 }
 
-/* Adds a row that goes with those before: all people's or all simulated, and each trial once. */
+/* Adds a row if it is consistent with the previous ones: all from people or all simulated, and each trial once. */
 static int add_row(const record_place *at, exp_records *records, const exp_record *r) {
     for (size_t i = 0; i < records->count; i++) {
         if (records->rows[i].simulated != r->simulated) {
@@ -45,7 +45,7 @@ static int add_row(const record_place *at, exp_records *records, const exp_recor
     return TOOL_OK;
 }
 
-/* Takes a line apart at its commas. */
+/* Splits a line at its commas. */
 static int split(char *line, char *cells[COLUMNS]) {
     int count = 0;
     for (char *rest = line; rest; count++) {

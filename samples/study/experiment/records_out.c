@@ -1,4 +1,4 @@
-/* The CSV of a session, a row a trial. SPDX-License-Identifier: MIT */
+/* The CSV of a session, one row per trial. SPDX-License-Identifier: MIT */
 #include "experiment.h"
 
 #include "out.h"

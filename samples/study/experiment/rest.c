@@ -32,7 +32,7 @@ int exp_rest(const exp_session *session, int is_break, int *stopped) {
     do {
         run.stopped = run.pressed = run.asking = 0;
         code = exp_drive(session, &run, &outcome);
-    } while (code == TOOL_OK && outcome.stopped); /* both buttons are no answer */
+    } while (code == TOOL_OK && outcome.stopped); /* pressing both buttons is no answer */
     *stopped = code == TOOL_OK && outcome.chosen == 1;
     return code;
 }

@@ -1,4 +1,4 @@
-/* Whether a session begins, or goes on after what its file holds. SPDX-License-Identifier: MIT */
+/* Decides whether a session starts, or continues after the trials in its file. SPDX-License-Identifier: MIT */
 #include "experiment.h"
 
 #include "os.h"

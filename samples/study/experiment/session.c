@@ -7,17 +7,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A session, and the rows of its file: the text of those that were there before, and the outcomes of those from `first`
- * on. */
+/* A session, and the rows of its file: the text of earlier rows, and the outcomes of those from `first` on. */
 typedef struct session_rows {
     const exp_session *session;
     exp_trial *trials;
     exp_outcome *outcomes;
     uint32_t first;
-    char *text; /* null: none were there */
+    char *text; /* null: no earlier rows */
 } session_rows;
 
-/* What a session adds up to, for its last lines. */
+/* Totals of a session, for its last lines. */
 typedef struct totals {
     uint64_t ticks, force_limit_ticks, above_nyquist_ticks, overruns;
     uint32_t trials, force_limit_trials, restarts;
@@ -41,7 +40,7 @@ static void show_trial(uint32_t number, uint32_t count, const exp_session *sessi
     }
 }
 
-/* All rows so far, to a file that takes the old one's place. */
+/* Writes all rows so far to a file that replaces the old one. */
 static int save(const session_rows *s, uint32_t count) {
     out_file file;
     if (out_open(&file, s->session->out)) {
@@ -58,7 +57,7 @@ static int save(const session_rows *s, uint32_t count) {
     return out_update(&file, s->session->answers != EXP_SIMULATED) ? TOOL_FAILURE : TOOL_OK;
 }
 
-/* Before anybody has answered: the file can be made. */
+/* Checks that the file can be written, before anyone answers. */
 static int try_to_write(const char *path) {
     out_file file;
     const int code = out_open(&file, path) ? TOOL_FAILURE : TOOL_OK;
@@ -68,10 +67,11 @@ static int try_to_write(const char *path) {
     return code;
 }
 
-/* One trial to its answer; one that the subject stops is played again after a rest. *stopped: as exp_rest() has it. */
+/* Plays one trial until its answer; if the subject stops it, it is played again after a rest. *stopped: as for
+ * exp_rest(). */
 static int play_trial(const exp_session *session, const exp_trial *trial, uint32_t number, exp_outcome *outcome,
                       int *stopped) {
-    uint64_t noise = ~session->seed + 0x9e3779b97f4a7c15u * number; /* the same answers however often it is resumed */
+    uint64_t noise = ~session->seed + 0x9e3779b97f4a7c15u * number; /* the same answers if it is resumed */
     uint32_t restarts = 0;
     int code = TOOL_OK;
     do {
@@ -132,7 +132,7 @@ static void report(const exp_session *session, const totals *t) {
     say(stdout, "written: %s\n", session->out);
 }
 
-/* It ended early: what is answered is in the file. */
+/* The session ended early: the answers so far are in the file. */
 static void tell_rest(const session_rows *s, const totals *t, uint32_t count) {
     const uint32_t done = s->first + t->trials;
     if (done > 0 && done < count) {

@@ -1,4 +1,4 @@
-/* A simulated subject, to run the protocol without a person. It answers by a formula and says nothing about people.
+/* A simulated subject, to run the protocol without a person. It answers by a formula, which is no model of people.
  * SPDX-License-Identifier: MIT */
 #include "experiment.h"
 
@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-/* How uncertain it is: badness at which it is right 73 % of the time. Chosen, not fitted to anyone. */
+/* Difference of badness at which it answers right 73 % of the time. Chosen, not fitted to data. */
 #define UNCERTAINTY 0.1
 
 #define SCAN_TICKS 1000
@@ -21,7 +21,7 @@ double exp_badness(int32_t method, double period_ms, double amplitude) {
     study_signal signal;
     if (knurl_wave_prepare(method, 1e-3 * period_ms, amplitude, EXP_RATE, &wave) ||
         !study_signal_of_wave(&wave, EXP_RATE, &signal)) {
-        return 1.0; /* no whole number of ticks is a whole number of periods: nothing of it is true */
+        return 1.0; /* no whole number of ticks is a whole number of periods: all power is spurious */
     }
     const double spurious = study_spurious(&signal, 1e3 / period_ms);
     const double badness = fabs(study_net(&signal)) + (isnan(spurious) ? 1.0 : spurious);
@@ -62,7 +62,7 @@ double exp_grating_badness(int32_t method, double period_mm, double amplitude_mm
     static struct {
         int32_t method;
         double period, amplitude, badness;
-    } known[16]; /* a session asks for the same few again and again */
+    } known[16]; /* a cache: a session needs the same few values repeatedly */
     static unsigned next;
     knurl_grating grating;
     double sum = 0.0;

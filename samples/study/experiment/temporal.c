@@ -7,9 +7,9 @@
 #include <math.h>
 #include <string.h>
 
-#define LEAD_TICKS     1000  /* 1 s to get hold of the stylus; the paper's subjects move into a sphere at leisure */
+#define LEAD_TICKS     1000  /* 1 s to grasp the stylus; the paper's subjects move into a sphere without a time limit */
 #define SPHERE         0.020 /* m: leaving it stops the trial, as in the paper, which gives no radius */
-#define FORGIVEN       10    /* restarts after which a simulated hand is taken for one that cannot hold still */
+#define FORGIVEN       10    /* restarts after which a simulated hand is assumed unable to hold still */
 #define QUESTION_TICKS (LEAD_TICKS + EXP_TRIAL_TICKS)
 
 typedef struct player {
@@ -17,12 +17,11 @@ typedef struct player {
     const char *(*cue)(uint64_t tick, void *cue_user);
     void *cue_user;
     double max_force;
-    double centre[3]; /* of the sphere: where the hand is when the first vibration begins */
+    double centre[3]; /* of the sphere: the hand's position at the start of the first vibration */
     uint64_t force_limit_ticks;
 } player;
 
-/* Forces go up and down (IV-A2). They are passed on as the paper has them: the device's layer shortens what is too
- * much. */
+/* Forces go up and down (IV-A2). They are passed on as in the paper: the device's layer limits them. */
 static void play(exp_run *run, uint64_t tick, const knurl_device_sample *sample, double force[3]) {
     player *p = run->user;
     if (tick <= LEAD_TICKS) {
@@ -50,12 +49,12 @@ static const char *cue_trial(uint64_t t, void *user) {
     return t < EXP_PROGRESSION + EXP_BETWEEN_TICKS ? "..." : t < EXP_TRIAL_TICKS ? "second (green)" : "";
 }
 
-/* What is said during the progressions, and before. */
+/* Text for the subject during the progressions, and before. */
 static const char *cue(uint64_t tick, void *user) {
     const player *p = user;
     return tick < LEAD_TICKS ? "hold still" : p->cue(tick - LEAD_TICKS, p->cue_user);
 }
-/* On the fake device a hand that stands still. */
+/* Sets the fake device's hand to stand still. */
 static int hold(const exp_session *session) {
     knurl_stroke_desc stroke;
     knurl_stroke_desc_init(&stroke, sizeof stroke);
@@ -86,7 +85,7 @@ int exp_play_stimulus(const exp_session *session, const exp_stimulus *stimulus, 
         run.question = question;
         run.ready = 1;
         run.question_tick = QUESTION_TICKS;
-        run.end_tick = QUESTION_TICKS + 1; /* the loop's ramp at the end begins from no force */
+        run.end_tick = QUESTION_TICKS + 1; /* the loop's final ramp starts from zero force */
         code = code ? code : exp_drive(session, &run, outcome);
         outcome->force_limit_ticks = p.force_limit_ticks;
         outcome->restarts = restarts;

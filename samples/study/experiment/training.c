@@ -1,4 +1,4 @@
-/* The training session (IV-A4): good and deliberately bad progressions, then six trials that are easy to tell.
+/* The training session (IV-A4): good and deliberately bad progressions, then six easy trials.
  * SPDX-License-Identifier: MIT */
 #include "experiment.h"
 
@@ -9,7 +9,7 @@
 #define PUSH 0.5 /* N, upwards */
 
 /* The paper's six progressions of a low, a medium and a high frequency, ms. Even periods are the same in all methods;
- * 29 ms of T2 is the one that felt particularly rough. */
+ * T2 at 29 ms felt particularly rough. */
 static const struct {
     int32_t method;
     double periods[3], push;
@@ -30,7 +30,7 @@ static const char introduction[] =
     "intensity, twice. Then three bad ones, at each intensity: one that does not rise from low to medium to high, one\n"
     "that feels rough, and one whose medium pushes your hand upwards. Hold the stylus loosely, and still.\n";
 
-/* What the subject reads during each progression. */
+/* Text for the subject during each progression. */
 static const char *const words[4][2][3] = {
     {{"good, low intensity: low", "good, low intensity: medium", "good, low intensity: high"},
      {"good, high intensity: low", "good, high intensity: medium", "good, high intensity: high"}},

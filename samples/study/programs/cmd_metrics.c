@@ -11,7 +11,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* This signal beside the other methods' at the same period. */
+/* Correlations with the other methods' signals at the same period. */
 static void print_correlations(json_writer *json, const tool_wave *asked, const study_signal *signal) {
     json_open(json, "pcc", '{');
     for (int32_t i = KNURL_WAVE_T1; i <= KNURL_WAVE_T3; i++) {
@@ -28,8 +28,8 @@ static void print_correlations(json_writer *json, const tool_wave *asked, const 
     json_close(json, '}');
 }
 
-/* What a hand gets of whole actual periods, a second of them or 20 periods: the line at its frequency, how even its
- * level is, and the force that stays over 50 ms. */
+/* Metrics for a hand over whole actual periods, 1 s or 20 periods: the line at the frequency, the evenness of its
+ * level, and the mean force over 50 ms. */
 static int print_steady(json_writer *json, const tool_wave *asked, const study_signal *signal) {
     const double length = (double)signal->length;
     const size_t ticks = signal->length * (size_t)ceil(fmax(1.0, 20.0 * asked->period_s) * asked->rate / length);
