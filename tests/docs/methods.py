@@ -78,7 +78,7 @@ def knurl_cs(text, known, default):
 
 def method_cs(text, known, default):
     found = pairs(r"(?m)^\s*(?P<name>\w+) = (?P<number>\d+)", text)
-    return (found, re.search(r'as <see cref="(\w+)"/>', text)[1]), \
+    return (found, re.search(r'default: <see cref="(\w+)"/>', text)[1]), \
         ({0: "Default", **{n: title(m) for n, m in known.items()}}, title(known[default]))
 
 
