@@ -126,3 +126,8 @@ void json_string(json_writer *json, const char *key, const char *value) {
     begin_value(json, key);
     print_text(json->stream, value);
 }
+
+void json_raw(json_writer *json, const char *key, const char *value) {
+    begin_value(json, key);
+    fputs(value, json->stream);
+}

@@ -2,6 +2,7 @@
 #include "help.h"
 
 #include "bench.h"
+#include "materials.h"
 #include "options.h"
 
 #include <knurl/knurl.h>
@@ -9,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define OPTIONS_MAX 18
+#define OPTIONS_MAX 20
 #define INDENT      30
 
 typedef struct help_option {
@@ -51,6 +52,33 @@ static const help_command commands[] = {
      "projection_seams, material, stretch,\n"
      "stretch_y}], skipped, bytes, hint.",
      NULL},
+    {"tag",
+     "FILE",
+     "set, change, remove or list the tags of a glTF file",
+     {{"--material", "NAME|INDEX", "the object to tag; default: the file's only material"},
+      {"--mesh", "NAME|INDEX", "a mesh instead, whose tag overrides its materials' key by key"},
+      {"--node", "NAME|INDEX", "a node instead, whose tag overrides both"},
+      {"--preset", "NAME", "the tag of an everyday material, see below; other options change it"},
+      {"--ridges", "LENGTH[,LENGTH]", "from ridge to ridge: 1mm; two for a grid: 1mm,2mm; none: a smooth surface"},
+      {"--amplitude", "LENGTH", "half of peak to peak: 0.2mm"},
+      {"--stiffness", "N/M", "of the wall, N/m"},
+      {"--friction", "MU", "Coulomb coefficient"},
+      {"--damping", "NS/M", "along the normal, N s/m"},
+      {"--orientation", "ANGLE", "turns the ridges about the normal: 45deg or 0.5rad"},
+      {"--axis", "X,Y,Z", "the direction across the ridges in object space, instead of the UVs'"},
+      {"--coordinates", "auto|box", "box: ridges by positions instead of UVs"},
+      {"--method", METHODS, "the spatial method"},
+      {"--smooth", "yes|no", "no: felt as its triangles, though the mesh has normals"},
+      {"--remove", "", "removes the tag"},
+      {"--list", "", "prints what can be tagged, and its tags, as JSON"},
+      {"--out", "FILE", "writes the tagged file there"},
+      {"--in-place", "", "replaces the file itself"},
+      PRETTY},
+     "Lengths have a unit: m, cm, mm, um or in. Only the tagged object's extras change; every other byte stays.\n"
+     "External buffers are not copied: write beside them.\n"
+     "JSON (--list): [{in, index, name, tag}].\n"
+     "Presets:\n",
+     materials_text},
     {"run",
      "FILE",
      "load a scene, feel or stroke it, and summarise as JSON",

@@ -30,9 +30,16 @@ static int run_study_program(int argc, char **argv) {
 static const struct {
     const char *name;
     int (*run)(int argc, char **argv);
-} commands[] = {{"inspect", cmd_inspect},       {"run", cmd_run},         {"signal", cmd_signal},
-                {"metrics", run_study_program}, {"scan", cmd_scan},       {"study", run_study_program},
-                {"bench", cmd_bench},           {"devices", cmd_devices}, {"calibrate", cmd_calibrate}};
+} commands[] = {{"inspect", cmd_inspect},
+                {"tag", cmd_tag},
+                {"run", cmd_run},
+                {"signal", cmd_signal},
+                {"metrics", run_study_program},
+                {"scan", cmd_scan},
+                {"study", run_study_program},
+                {"bench", cmd_bench},
+                {"devices", cmd_devices},
+                {"calibrate", cmd_calibrate}};
 
 /* The command whose help is requested; "": the overview; null: no help requested. */
 static const char *help_asked(int argc, char **argv) {
@@ -51,7 +58,7 @@ static int unknown_command(const char *name) {
     const char *near = help_nearest_command(name);
     return tool_error(
         TOOL_USAGE,
-        "expected a command (inspect, run, signal, metrics, scan, study, bench, devices, calibrate), found '%s'%s%s%s; "
+        "expected a command (inspect, tag, run, signal, metrics, scan, study, bench, devices, calibrate), found '%s'%s%s%s; "
         "see 'knurl --help'",
         name, near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "");
 }

@@ -47,6 +47,7 @@ int tool_csv_has(const char *path, const char *name);
 /* --- commands --- */
 
 int cmd_inspect(int argc, char **argv);
+int cmd_tag(int argc, char **argv);
 int cmd_run(int argc, char **argv);
 int cmd_signal(int argc, char **argv);
 int cmd_scan(int argc, char **argv);

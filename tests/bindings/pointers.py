@@ -17,6 +17,14 @@ VALUES = {
     "knurl_device_list.capacity": "1",
     "knurl_gltf_load_file.path": "KNURL_TEST_ASSETS \"/plate_1d.glb\"",
     "knurl_gltf_load_memory.data": "f->file",
+    "knurl_gltf_list_tags.data": "f->file",
+    "knurl_gltf_set_tag.data": "f->file",
+    "knurl_gltf_list_tags.size": "f->file_size",
+    "knurl_gltf_set_tag.size": "f->file_size",
+    "knurl_gltf_list_tags.name": '"plate"',
+    "knurl_gltf_set_tag.name": '"plate"',
+    "knurl_gltf_list_tags.user": "f",
+    "knurl_gltf_set_tag.user": "f",
     "knurl_gltf_load_memory.size": "f->file_size",
     "knurl_gltf_load_memory.name": '"plate"',
     "knurl_gltf_load_memory.folder": '"."',
@@ -124,6 +132,10 @@ VALUES = {
     "to char *": "f->text",
     "size size_t": "sizeof f->text",
     "from const char *": '"text"',
+    "array const char *": '"materials"',
+    "tag const char *": '"{}"',
+    "each knurl_gltf_list_callback": "ignore_tag",
+    "write knurl_gltf_write_callback": "ignore_file",
 }
 
 # Parameters that may be null, each for a reason that its function's comment gives.
@@ -136,7 +148,7 @@ MAY_BE_NULL = {
     "knurl_scene_get_tick.output", "knurl_scene_get_tick.counts", "knurl_scene_get_contacts.contacts",
     "knurl_scene_set_user_data.user_data", "knurl_method_add.user",
     "knurl_gltf_load_file.options", "knurl_gltf_load_file.report", "knurl_fake_lay_stroke.report", "knurl_gltf_load_memory.options", "knurl_gltf_load_memory.report", "knurl_gltf_load_memory.name",
-    "knurl_gltf_load_memory.folder", "knurl_grating_step.position",
+    "knurl_gltf_load_memory.folder", "knurl_gltf_list_tags.name", "knurl_gltf_list_tags.user", "knurl_gltf_set_tag.user", "knurl_gltf_set_tag.name", "knurl_gltf_set_tag.tag", "knurl_grating_step.position",
     "knurl_session_start.warning", "knurl_session_explain.text", "knurl_session_fault_text.text",
 }
 

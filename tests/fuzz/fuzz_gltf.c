@@ -3,6 +3,32 @@
 
 #include <knurl/gltf.h>
 
+/* A tag is set on the first material, and removed again. */
+typedef struct edited {
+    const void *data;
+    uint64_t size;
+} edited;
+
+static void remove_tag(void *user, const void *data, uint64_t size) {
+    (void)user;
+    EXPECT(size >= 2 && data);
+}
+
+static void remove_again(void *user, const void *data, uint64_t size) {
+    (void)user;
+    EXPECT(knurl_gltf_set_tag(data, size, "fuzz", "materials", 0, NULL, remove_tag, NULL) == KNURL_OK);
+}
+
+static void set_tag(void *user, const char *array, uint32_t index, const char *name, const char *tag) {
+    const edited *file = user;
+    EXPECT(array && name);
+    (void)tag;
+    if (strcmp(array, "materials") == 0 && index == 0) {
+        (void)knurl_gltf_set_tag(file->data, file->size, "fuzz", array, index, "{\"stiffness\":400}", remove_again,
+                                 NULL);
+    }
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     static const uint8_t way[] = {20, 128, 20, 128, 20, 140, 20, 130, 20, 128, 20, 126, 20, 132, 20, 128, 20, 125};
     knurl_scene *scene = NULL;
@@ -13,6 +39,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     budget.max_surfaces = 64; /* deep rather than broad */
     budget.max_vertices = 20000;
     budget.max_triangles = 20000;
+    edited file = {data, size};
+    (void)knurl_gltf_list_tags(data, size, "fuzz", set_tag, &file);
     EXPECT(knurl_scene_create(NULL, &scene) == KNURL_OK);
     const knurl_result result = knurl_gltf_load_memory(scene, data, size, "fuzz", NULL, &budget, &report);
     const uint32_t count = knurl_scene_get_surface_count(scene);

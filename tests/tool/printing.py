@@ -15,6 +15,7 @@ WRITERS = {
     "samples/common/csv.c": "cleans all names",
     "samples/common/out.c": "prints numbers",
     "samples/knurl/help.c": "prints its own tables",
+    "samples/knurl/cmd_tag.c": "writes a glTF file's bytes",
     "samples/knurl/sound.c": "writes samples of sound",
 }
 # Small programs for readers: of text they print the library's messages and names, which have passed knurl_text_line().

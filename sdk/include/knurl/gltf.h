@@ -68,6 +68,34 @@ KNURL_API knurl_result knurl_gltf_load_memory(knurl_scene *scene, const void *da
                                               const char *folder, const knurl_gltf_options *options,
                                               knurl_gltf_report *report);
 
+/** Called for each object that can carry a tag. array: "materials", "meshes" or "nodes". index: in that array. object:
+ * its name, UTF-8, or "". tag: its tag in the nested form, JSON, as the file has it, not checked; or null if it has
+ * none. The strings are valid during the call. */
+typedef void (*knurl_gltf_list_callback)(void *user, const char *array, uint32_t index, const char *object,
+                                         const char *tag);
+
+/** Takes a file's bytes, valid during the call. */
+typedef void (*knurl_gltf_write_callback)(void *user, const void *data, uint64_t size);
+
+/** Lists the objects of a .gltf or .glb file that can carry a tag, in the file's order.
+ * data: `size` bytes of the file, the caller's. name: of the file in messages, or null. user: passed to each.
+ * Errors: as knurl_gltf_load_memory(); the JSON is checked, buffers are not read. [any thread but the haptic] */
+KNURL_API knurl_result knurl_gltf_list_tags(const void *data, uint64_t size, const char *name,
+                                            knurl_gltf_list_callback each, void *user);
+
+/** Makes a copy of a .gltf or .glb file in which one object's tag is set, changed or removed. Only that object's
+ * `extras` change; every other byte stays, in a .glb but for the lengths and padding. Other keys of the extras stay.
+ * data, size, name: as knurl_gltf_list_tags(). array, index: the object, as that function lists it.
+ * tag: a JSON object with keys of the schema (assets/knurl_extras.schema.json, nested form): they replace those of the
+ * object's tag, the rest of which stays; a key whose value is null is removed (a JSON merge patch, RFC 7396). The tag
+ * is written in the nested form, even if it was flat. Null removes the whole tag.
+ * write: called once, last, with the new file; not called if anything fails. user: passed to write.
+ * Errors: KNURL_ERROR_ARGUMENT (array or index), KNURL_ERROR_FORMAT (the file's JSON, or a key or value of the
+ * resulting tag), KNURL_ERROR_FULL. Whether required keys are there is not checked: another object may have them.
+ * [any thread but the haptic] */
+KNURL_API knurl_result knurl_gltf_set_tag(const void *data, uint64_t size, const char *name, const char *array,
+                                          uint32_t index, const char *tag, knurl_gltf_write_callback write, void *user);
+
 #ifdef __cplusplus
 }
 #endif

@@ -5,13 +5,13 @@
 
 #include "container.hpp"
 #include "filter.hpp"
+#include "guarded.hpp"
 #include "placement.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstring>
 #include <map>
-#include <new>
 
 namespace fs = std::filesystem;
 
@@ -262,11 +262,11 @@ knurl_gltf_options complete(const knurl_gltf_options *options) {
     return all;
 }
 
-/// Runs `load` and turns exceptions into a result and a message that starts with the file's name.
+/// Runs `load` with the caller's options, and fills the report.
 template <typename Load>
-knurl_result guarded(const char *name, const knurl_gltf_options *options, knurl_gltf_report *report, const Load &load) {
-    const char *file = name != nullptr && *name != '\0' ? name : "glTF data";
-    try {
+knurl_result load_guarded(const char *name, const knurl_gltf_options *options, knurl_gltf_report *report,
+                          const Load &load) {
+    return guarded(name, [&] {
         Budget budget(complete(options));
         if (report != nullptr)
             check_size(report->struct_size, 16, "knurl_gltf_report");
@@ -275,22 +275,7 @@ knurl_result guarded(const char *name, const knurl_gltf_options *options, knurl_
             report->surfaces = counts.surfaces;
             report->skipped = counts.skipped;
         }
-        return KNURL_OK;
-    } catch (const Failure &failure) {
-        return knurl_fail(failure.code(), "%.400s: %s", file, failure.what());
-    } catch (const std::bad_alloc &) {
-        return knurl_fail(KNURL_ERROR_MEMORY, "%.400s: out of memory", file);
-    } catch (const std::exception &error) {
-        return knurl_fail(KNURL_ERROR_FORMAT, "%.400s: %s", file, error.what());
-    } catch (...) {
-        return knurl_fail(KNURL_ERROR_FORMAT, "%.400s: an unknown failure", file);
-    }
-}
-
-bool is_null(const void *pointer, const char *name) {
-    if (pointer == nullptr)
-        (void)knurl_fail(KNURL_ERROR_ARGUMENT, "%s: expected a pointer, found null", name);
-    return pointer == nullptr;
+    });
 }
 
 template <typename T>
@@ -326,7 +311,7 @@ knurl_result knurl_gltf_load_file(knurl_scene *scene, const char *path, const kn
                                   knurl_gltf_report *report) {
     if (is_null(path, "path") || knurl_scene_get_bytes(scene) == 0) // 0 for an invalid scene, with a message
         return KNURL_ERROR_ARGUMENT;
-    return knurl::gltf::guarded(path, options, report, [&](knurl::gltf::Budget &budget) {
+    return knurl::gltf::load_guarded(path, options, report, [&](knurl::gltf::Budget &budget) {
         const fs::path file = fs::u8path(path);
         if (!knurl::gltf::has_gltf_name(file))
             throw Failure(KNURL_ERROR_FORMAT, "expected a name that ends in .gltf or .glb");
@@ -340,7 +325,7 @@ knurl_result knurl_gltf_load_memory(knurl_scene *scene, const void *data, uint64
                                     const char *folder, const knurl_gltf_options *options, knurl_gltf_report *report) {
     if ((size != 0 && is_null(data, "data")) || knurl_scene_get_bytes(scene) == 0)
         return KNURL_ERROR_ARGUMENT;
-    return knurl::gltf::guarded(name, options, report, [&](knurl::gltf::Budget &budget) {
+    return knurl::gltf::load_guarded(name, options, report, [&](knurl::gltf::Budget &budget) {
         budget.take_bytes(size, "");
         std::optional<fs::path> root;
         if (folder != nullptr)

@@ -147,12 +147,6 @@ void read_entry(Tag &tag, const Fields &extras, const std::string &prefix, std::
     extras.refuse_key(prefix + shortened(name), "unknown key; known are " + known);
 }
 
-constexpr std::string_view flat_prefix = "knurl_";
-
-bool is_flat(std::string_view key) {
-    return key.substr(0, flat_prefix.size()) == flat_prefix;
-}
-
 } // namespace
 
 void Tag::override_with(const Tag &other) {

@@ -29,6 +29,13 @@ struct Tag {
     const char *missing_key() const;
 };
 
+/** A key of the flat form begins with this. */
+constexpr std::string_view flat_prefix = "knurl_";
+
+inline bool is_flat(std::string_view key) {
+    return key.substr(0, flat_prefix.size()) == flat_prefix;
+}
+
 /** The tag of a material, mesh or node, nested or flat; empty if its extras have no tag. Throws Failure. */
 std::optional<Tag> read_tag(const Fields &owner);
 

@@ -642,6 +642,13 @@ namespace Knurl
     internal unsafe delegate int knurl_gltf_options_progress(IntPtr user, double done);
 
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    internal unsafe delegate void knurl_gltf_list_callback(IntPtr user, byte* array, uint index, byte* @object,
+        byte* tag);
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    internal unsafe delegate void knurl_gltf_write_callback(IntPtr user, IntPtr data, ulong size);
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     internal unsafe delegate void knurl_force_callback(ulong tick, knurl_device_sample* sample, double* force,
         IntPtr user);
 
@@ -659,7 +666,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "3ad11e15b611858f";
+        internal const string Interface = "df4a343f7174148f";
 
         internal const string Version = "0.3.0";
 
@@ -1135,6 +1142,13 @@ namespace Knurl
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_gltf_load_memory(knurl_scene* scene, IntPtr data, ulong size, byte* name,
             byte* folder, knurl_gltf_options* options, knurl_gltf_report* report);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_gltf_list_tags(IntPtr data, ulong size, byte* name, IntPtr each, IntPtr user);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_gltf_set_tag(IntPtr data, ulong size, byte* name, byte* array, uint index,
+            byte* tag, IntPtr write, IntPtr user);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void knurl_loop_desc_init(knurl_loop_desc* desc, uint size);

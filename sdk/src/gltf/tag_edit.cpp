@@ -1,0 +1,276 @@
+// Knurl: lists a file's tags, and sets or removes one. Only the text of one object's `extras` changes: every other byte
+// of the file stays. The JSON was checked by parse_json() before its text is walked, so the walk has no errors.
+// SPDX-License-Identifier: MIT
+#include <knurl/gltf.h>
+
+#include "container.hpp"
+#include "guarded.hpp"
+#include "nlohmann.hpp"
+#include "tags.hpp"
+
+#include <cstring>
+
+namespace knurl::gltf {
+namespace {
+
+struct Kind {
+    const char *array; ///< the key in the file's root
+    const char *name;  ///< in messages
+};
+
+constexpr Kind kinds[] = {{"materials", "material"}, {"meshes", "mesh"}, {"nodes", "node"}};
+
+/// A member of an object, or an element of an array, by offsets into the text.
+struct Part {
+    std::string key; ///< decoded; "" in an array
+    size_t begin = 0;
+    size_t value = 0;
+    size_t end = 0;
+};
+
+size_t skip_blank(std::string_view text, size_t at) {
+    return text.find_first_not_of(" \t\r\n", at);
+}
+
+size_t skip_string(std::string_view text, size_t at) {
+    for (++at; text[at] != '"'; ++at)
+        at += text[at] == '\\' ? 1 : 0;
+    return at + 1;
+}
+
+size_t skip_value(std::string_view text, size_t at) {
+    if (std::strchr("\"{[", text[at]) == nullptr)
+        return text.find_first_of(",]} \t\r\n", at);
+    size_t depth = 0;
+    do {
+        const char c = text[at];
+        depth += c == '{' || c == '[' ? 1 : 0;
+        depth -= c == '}' || c == ']' ? 1 : 0;
+        at = c == '"' ? skip_string(text, at) : at + 1;
+    } while (depth > 0);
+    return at;
+}
+
+std::string decoded(std::string_view quoted) {
+    if (quoted.find('\\') == std::string_view::npos)
+        return std::string(quoted.substr(1, quoted.size() - 2));
+    Budget budget({});
+    return *parse_json(quoted, budget).text();
+}
+
+/// The parts of the object or array that opens at an offset.
+std::vector<Part> parts_of(std::string_view text, size_t open) {
+    std::vector<Part> parts;
+    for (size_t at = skip_blank(text, open + 1); text[at] != '}' && text[at] != ']';) {
+        Part part;
+        part.begin = at;
+        if (text[open] == '{') {
+            const size_t end = skip_string(text, at);
+            part.key = decoded(text.substr(at, end - at));
+            at = skip_blank(text, skip_blank(text, end) + 1); // after the colon
+        }
+        part.value = at;
+        part.end = skip_value(text, at);
+        at = skip_blank(text, part.end);
+        if (text[at] == ',')
+            at = skip_blank(text, at + 1);
+        parts.push_back(std::move(part));
+    }
+    return parts;
+}
+
+std::optional<Part> find_part(std::string_view text, size_t open, std::string_view key) {
+    for (Part &part : parts_of(text, open))
+        if (part.key == key)
+            return std::move(part);
+    return std::nullopt;
+}
+
+void erase_part(std::string &text, size_t open, std::string_view key) {
+    const std::vector<Part> parts = parts_of(text, open);
+    for (size_t i = 0; i < parts.size(); ++i)
+        if (parts[i].key == key) {
+            const size_t from = i > 0 ? parts[i - 1].end : parts[i].begin;
+            const size_t to = i == 0 && parts.size() > 1 ? parts[1].begin : parts[i].end;
+            text.erase(from, to - from);
+            return;
+        }
+}
+
+void append_part(std::string &text, size_t open, const std::string &member) {
+    const std::vector<Part> parts = parts_of(text, open);
+    text.insert(parts.empty() ? open + 1 : parts.back().end, (parts.empty() ? "" : ",") + member);
+}
+
+/// A tag's keys without prefix and version, and their values as text, in the file's order.
+using TagText = std::vector<std::pair<std::string, std::string>>;
+
+void set_key(TagText &tag, const std::string &key, std::string_view value) {
+    for (auto entry = tag.begin(); entry != tag.end(); ++entry)
+        if (entry->first == key) {
+            if (value == "null")
+                tag.erase(entry);
+            else
+                entry->second = value;
+            return;
+        }
+    if (value != "null" && key != "version")
+        tag.emplace_back(key, value);
+}
+
+void set_keys(TagText &tag, std::string_view text, size_t open) {
+    for (const Part &part : parts_of(text, open))
+        set_key(tag, part.key, text.substr(part.value, part.end - part.value));
+}
+
+/// The tag in the extras that open at an offset; empty if there is none, as for extras that are not an object.
+std::optional<TagText> read_tag_text(std::string_view text, size_t extras) {
+    std::optional<TagText> tag;
+    for (const Part &part : text[extras] == '{' ? parts_of(text, extras) : std::vector<Part>()) {
+        if (part.key != "knurl" && !is_flat(part.key))
+            continue;
+        tag = tag ? tag : TagText();
+        if (is_flat(part.key))
+            set_key(*tag, part.key.substr(flat_prefix.size()), text.substr(part.value, part.end - part.value));
+        else if (text[part.value] == '{')
+            set_keys(*tag, text, part.value);
+    }
+    return tag;
+}
+
+std::string nested(const TagText &tag) {
+    std::string text = "{\"version\":1";
+    for (const auto &[key, value] : tag)
+        text += "," + nlohmann::json(key).dump() + ":" + value;
+    return text + "}";
+}
+
+void erase_tag(std::string &text, size_t extras) {
+    for (const Part &part : parts_of(text, extras))
+        if (part.key == "knurl" || is_flat(part.key))
+            erase_part(text, extras, part.key);
+}
+
+/// patch: null removes the tag. owner: the object in messages.
+void edit_object(std::string &text, size_t object, const char *patch, const Fields &owner) {
+    if (const Json *extras = owner.find("extras"); extras != nullptr && extras->object() == nullptr)
+        owner.refuse_value("extras", "an object, which can hold a tag", *extras);
+    std::optional<Part> extras = find_part(text, object, "extras");
+    TagText tag;
+    if (extras) {
+        tag = read_tag_text(text, extras->value).value_or(TagText());
+        erase_tag(text, extras->value);
+    }
+    if (patch != nullptr) {
+        set_keys(tag, patch, skip_blank(patch, 0));
+        const std::string member = "\"knurl\":" + nested(tag);
+        if (extras)
+            append_part(text, extras->value, member);
+        else
+            append_part(text, object, "\"extras\":{" + member + "}");
+    } else if (extras && parts_of(text, extras->value).empty()) {
+        erase_part(text, object, "extras");
+    }
+}
+
+void check_patch(const char *patch) {
+    Budget budget({});
+    const Json json = parse_json(patch, budget);
+    if (json.object() == nullptr)
+        refuse("tag", "expected a JSON object, found " + json.described());
+}
+
+void put_word(std::string &bytes, size_t at, size_t value) {
+    for (size_t i = 0; i < 4; ++i)
+        bytes[at + i] = static_cast<char>(value >> 8U * i & 0xFFU);
+}
+
+/// The file with other JSON text: its other chunks stay as they are.
+std::string assemble(Bytes file, const Container &container, std::string json) {
+    const auto *bytes = reinterpret_cast<const char *>(file.data);
+    if (container.json.data() == bytes)
+        return json;
+    constexpr size_t json_at = 20; // after the file's header and the chunk's
+    json.erase(json.find_last_of('}') + 1);
+    json.append((4 - json.size() % 4) % 4, ' ');
+    std::string whole(bytes, json_at);
+    const size_t rest = json_at + container.json.size();
+    whole += json;
+    whole.append(bytes + rest, file.size - rest);
+    if (whole.size() > UINT32_MAX)
+        refuse(".glb header", "the file would be longer than 4 GiB", KNURL_ERROR_FULL);
+    put_word(whole, 8, whole.size());
+    put_word(whole, 12, json.size());
+    return whole;
+}
+
+const Kind &kind_of(const char *array) {
+    for (const Kind &kind : kinds)
+        if (std::strcmp(array, kind.array) == 0)
+            return kind;
+    throw Failure(KNURL_ERROR_ARGUMENT, "array: expected 'materials', 'meshes' or 'nodes', found " + in_quotes(array));
+}
+
+std::string edit_file(Bytes file, const Kind &kind, uint32_t index, const char *patch) {
+    Budget budget({});
+    budget.take_bytes(file.size, "");
+    const Container container = split(file);
+    const Json json = parse_json(container.json, budget);
+    const Fields root(json, "", no_index);
+    const size_t count = root.array(kind.array).size();
+    if (index >= count)
+        throw Failure(KNURL_ERROR_ARGUMENT, std::string(kind.array) + ": expected an index below " +
+                                                std::to_string(count) + ", found " + std::to_string(index));
+    std::string text(container.json);
+    const size_t array = find_part(text, text.find('{'), kind.array)->value;
+    edit_object(text, parts_of(text, array)[index].value, patch, root.item(kind.array, kind.name, index));
+    const Json edited = parse_json(text, budget);
+    (void)read_tag(Fields(edited, "", no_index).item(kind.array, kind.name, index));
+    return assemble(file, container, std::move(text));
+}
+
+void list_file(Bytes file, knurl_gltf_list_callback each, void *user) {
+    Budget budget({});
+    budget.take_bytes(file.size, "");
+    const std::string_view text = split(file).json;
+    const Json json = parse_json(text, budget);
+    const Fields root(json, "", no_index);
+    for (const Kind &kind : kinds) {
+        if (root.array(kind.array).empty())
+            continue;
+        const std::vector<Part> objects = parts_of(text, find_part(text, text.find('{'), kind.array)->value);
+        for (uint32_t i = 0; i < objects.size(); ++i) {
+            const std::string name(root.item(kind.array, kind.name, i).name());
+            const std::optional<Part> extras = find_part(text, objects[i].value, "extras");
+            const std::optional<TagText> tag = extras ? read_tag_text(text, extras->value) : std::nullopt;
+            each(user, kind.array, i, name.c_str(), tag ? nested(*tag).c_str() : nullptr);
+        }
+    }
+}
+
+} // namespace
+} // namespace knurl::gltf
+
+knurl_result knurl_gltf_list_tags(const void *data, uint64_t size, const char *name, knurl_gltf_list_callback each,
+                                  void *user) {
+    if ((size != 0 && knurl::gltf::is_null(data, "data")) || knurl::gltf::is_null(each, "each"))
+        return KNURL_ERROR_ARGUMENT;
+    return knurl::gltf::guarded(name, [&] {
+        knurl::gltf::list_file({static_cast<const unsigned char *>(data), static_cast<size_t>(size)}, each, user);
+    });
+}
+
+knurl_result knurl_gltf_set_tag(const void *data, uint64_t size, const char *name, const char *array, uint32_t index,
+                                const char *tag, knurl_gltf_write_callback write, void *user) {
+    if ((size != 0 && knurl::gltf::is_null(data, "data")) || knurl::gltf::is_null(array, "array") ||
+        knurl::gltf::is_null(write, "write"))
+        return KNURL_ERROR_ARGUMENT;
+    return knurl::gltf::guarded(name, [&] {
+        const knurl::gltf::Kind &kind = knurl::gltf::kind_of(array);
+        if (tag != nullptr)
+            knurl::gltf::check_patch(tag);
+        const std::string file = knurl::gltf::edit_file(
+            {static_cast<const unsigned char *>(data), static_cast<size_t>(size)}, kind, index, tag);
+        write(user, file.data(), file.size());
+    });
+}

@@ -1,0 +1,148 @@
+/* knurl tag: what can be felt afterwards, that every other byte stays, and what is refused. SPDX-License-Identifier:
+ * MIT
+ */
+#include "support/close.h"
+#include "support/tool.h"
+
+static const char plate[] = KNURL_TEST_ASSETS "/plate_1d.glb"; /* steel, its fourth material, has no tag */
+
+static void check_same_bytes(const char *one, const char *other) {
+    struct stat a;
+    struct stat b;
+    assert_int_equal(stat(one, &a), 0);
+    assert_int_equal(stat(other, &b), 0);
+    assert_int_equal(a.st_size, b.st_size);
+    char *left = read_file(one);
+    char *right = read_file(other);
+    assert_memory_equal(left, right, (size_t)a.st_size);
+    free(left);
+    free(right);
+}
+
+static void check_tagged(const char *path, const char *tag) {
+    SCOPED_PROCESS p = RUN_TOOL("tag", path, "--list");
+    check_done(&p);
+    if (!strstr(p.out, tag)) {
+        fail_msg("expected %s in %s", tag, p.out);
+    }
+}
+
+TEST(lengths_and_angles_with_units_become_a_tag) {
+    const char *out = tool_path("units.gltf");
+    SCOPED_PROCESS p = RUN_TOOL("tag", write_plate("plate.gltf", ""), "--ridges", "0.5mm,2mm", "--amplitude", "200um",
+                                "--stiffness", "400", "--friction", "0.5", "--damping", "1", "--orientation", "90deg",
+                                "--axis", "1,0,0", "--method", "S2", "--smooth", "no", "--out", out);
+    check_done(&p);
+    check_tagged(out, "\"tag\": {\"version\":1,\"spatial_frequency\":[2000,500],\"amplitude\":0.0002,"
+                      "\"orientation\":1.5707963267948966,\"axis\":[1,0,0],\"method\":\"S2\",\"smooth\":false,"
+                      "\"stiffness\":400,\"friction\":0.5,\"damping\":1}");
+}
+
+TEST(a_preset_makes_an_untagged_file_felt) {
+    const char *out = tool_path("preset.gltf");
+    SCOPED_PROCESS p = RUN_TOOL("tag", write_plate("plate.gltf", ""), "--preset", "knurl_straight", "--axis", "1,0,0",
+                                "--amplitude", "0.1mm", "--out", out);
+    check_done(&p);
+    SCOPED_PROCESS q = RUN_TOOL("run", out, "--fast", "--seconds", "1");
+    check_done(&q);
+    assert_true(json_number_of(q.out, "half_cycles_played") > 10.0);
+    check_tagged(out, "\"spatial_frequency\":[1000,0],\"amplitude\":0.0001,");
+}
+
+TEST(tagging_and_removing_gives_the_same_bytes) {
+    const char *out = tool_path("steel.glb");
+    SCOPED_PROCESS p = RUN_TOOL("tag", plate, "--material", "steel", "--preset", "zip", "--out", out);
+    assert_int_equal(p.exit_code, 0);
+    SCOPED_PROCESS q = RUN_TOOL("tag", out, "--material", "3", "--remove", "--in-place");
+    check_done(&q);
+    check_same_bytes(out, plate);
+}
+
+TEST(a_file_in_place_keeps_the_keys_that_are_not_given) {
+    const char *file =
+        write_plate("place.gltf", "{\"knurl_spatial_frequency\":1000,\"knurl_amplitude\":1e-4,\"knurl_stiffness\":400,"
+                                  "\"knurl_axis\":[1,0,0],\"mine\":1}");
+    SCOPED_PROCESS p = RUN_TOOL("tag", file, "--stiffness", "300", "--in-place");
+    check_done(&p);
+    check_tagged(file,
+                 "{\"version\":1,\"spatial_frequency\":1000,\"amplitude\":1e-4,\"stiffness\":300,\"axis\":[1,0,0]}");
+}
+
+/* Arguments after `knurl tag`, apart by '|'; %G: the untagged plate, %T: the folder, %P: one with five materials. */
+typedef struct refusal {
+    const char *arguments;
+    int code;
+    const char *words;
+} refusal;
+
+static void check_refusal_of(const refusal *r) {
+    char text[512];
+    char expanded[16][1024];
+    const char *arguments[PROCESS_ARGUMENTS + 1] = {KNURL_TEST_TOOL, "tag"};
+    size_t count = 2;
+    (void)snprintf(text, sizeof text, "%s", r->arguments);
+    for (char *word = strtok(text, "|"); word && count < COUNT_OF(expanded); word = strtok(NULL, "|")) {
+        const char *path = strncmp(word, "%G", 2) == 0   ? tool_path("plain.gltf")
+                           : strncmp(word, "%P", 2) == 0 ? plate
+                           : strncmp(word, "%T", 2) == 0 ? tool_folder
+                                                         : "";
+        (void)snprintf(expanded[count], sizeof expanded[0], "%s%s", path, path[0] ? word + 2 : word);
+        arguments[count] = expanded[count];
+        count++;
+    }
+    process p = run_tool(arguments);
+    check_refused(&p, r->code, r->words, r->arguments);
+    assert_false(file_exists(tool_path("out.gltf")));
+    assert_int_equal(files_that_end(".part"), 0);
+}
+
+TEST(what_is_refused_writes_nothing) {
+    static const refusal table[] = {
+        {"--list", 2, "expected a .gltf or .glb file"},
+        {"%G", 2, "--ridges or a --preset, or else --remove or --list"},
+        {"%G|--preset|zip|--remove|--out|%T/out.gltf", 2, "or else --remove"},
+        {"%G|--preset|zip", 2, "--out FILE, or --in-place"},
+        {"%G|--preset|zip|--in-place|--out|%T/out.gltf", 2, "--out FILE, or --in-place"},
+        {"%G|--preset|zipp|--in-place", 2, "unknown material 'zipp', did you mean 'zip'?"},
+        {"%G|--ridges|1|--in-place", 2, "--ridges: expected|1mm|found '1'"},
+        {"%G|--ridges|0mm|--in-place", 2, "--ridges: expected|found '0mm'"},
+        {"%G|--ridges|1mm,2mm,3mm|--in-place", 2, "--ridges: expected"},
+        {"%G|--ridges|nanmm|--in-place", 2, "--ridges: expected"},
+        {"%G|--amplitude|0.2|--in-place", 2, "--amplitude: expected a length with its unit|found '0.2'"},
+        {"%G|--orientation|45|--in-place", 2, "--orientation: expected an angle|'45'"},
+        {"%G|--axis|1,0|--in-place", 2, "--axis: expected X,Y,Z"},
+        {"%G|--smooth|perhaps|--in-place", 2, "--smooth: expected yes or no"},
+        {"%G|--stiffness|-1|--in-place", 2, "--stiffness: expected a number"},
+        {"%G|--preset|zip|--amplitude|-1mm|--out|%T/out.gltf", 1, "material 'ridges' (0): knurl.amplitude: expected"},
+        {"%G|--preset|zip|--method|S3|--out|%T/out.gltf", 1, "knurl.method: expected 'S1', |found 'S3'"},
+        {"%G|--ridges|1mm|--out|%T/out.gltf", 1, "nothing is written|knurl.amplitude: missing"},
+        {"%G|--material|x|--node|y|--preset|zip|--in-place", 2, "one of --material, --mesh and --node"},
+        {"%G|--material|rdges|--preset|zip|--in-place", 2, "one object 'rdges' in materials, found 0"},
+        {"%P|--preset|zip|--out|%T/out.gltf", 2, "has 5 materials: expected --material"},
+        {"%G|--preset|zip|--out|%T/none/out.gltf", 1, "plate.bin"},
+        {"%G|--preset|zip|--axis|1,0,0|--out|%G", 1, "expected an output of its own"},
+        {"%T/none.glb|--list", 1, "none.glb|cannot be read"},
+        {"%T|--list", 1, "cannot be read: expected a file"},
+        {"%T/broken.glb|--list", 1, "broken.glb: .glb header: expected 12 bytes"},
+        {"%T/name.gltf|--list", 1, "name.gltf: JSON: "},
+    };
+    (void)write_plate("plain.gltf", "");
+    write_text(tool_path("broken.glb"), "glTF");
+    write_text(tool_path("name.gltf"), "{\"materials\":[{\"name\":\"\xff\"}]}");
+    for (size_t i = 0; i < COUNT_OF(table); i++) {
+        check_refusal_of(&table[i]);
+    }
+}
+
+TEST(two_objects_of_one_name_are_told_apart_by_index) {
+    const char *file = tool_path("twins.gltf");
+    write_text(file, "{\"asset\":{\"version\":\"2.0\"},\"materials\":[{\"name\":\"a\"},{\"name\":\"a\"}]}");
+    process p = RUN_TOOL("tag", file, "--material", "a", "--preset", "zip", "--in-place");
+    check_refused(&p, 2, "expected one object 'a' in materials, found 2; choose one by its index", "twins");
+    SCOPED_PROCESS q = RUN_TOOL("tag", file, "--material", "1", "--preset", "zip", "--in-place");
+    check_done(&q);
+    assert_non_null(strstr(q.err, "no node shows the tagged object"));
+    check_tagged(file, "\"index\": 1, \"name\": \"a\", \"tag\": {");
+}
+
+SUITE_FIXTURES(make_folder, remove_folder)
