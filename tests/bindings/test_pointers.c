@@ -63,20 +63,19 @@ typedef struct function {
     int64_t (*call)(fixture *f, void **pointers);
 } function;
 
-<<<<<<< HEAD
 static double no_height(const knurl_method_input *input, double *memory, void *user) KNURL_NONBLOCKING {
     (void)input;
     (void)memory;
     (void)user;
     return 0.0;
-=======
+}
+
 static void ignore_tag(void *user, const char *array, uint32_t index, const char *object, const char *tag) {
     (void)user, (void)array, (void)index, (void)object, (void)tag;
 }
 
 static void ignore_file(void *user, const void *data, uint64_t size) {
     (void)user, (void)data, (void)size;
->>>>>>> 9f72517e (gltf, tool, python: set, change and remove tags in files: knurl tag, knurl.tag(), 29 everyday materials)
 }
 
 #define FUNCTIONS
