@@ -2,19 +2,21 @@
 import json
 import os
 import secrets
-from typing import Any, List, NamedTuple, Optional, Union
+from dataclasses import dataclass
+from typing import Any, Dict, List, Optional, Tuple, Union
 
 from ._library import KnurlError, check, ffi, lib
 
 Path = Union[str, "os.PathLike[str]"]
 
 
-class Tagged(NamedTuple):
+@dataclass(frozen=True)
+class Tagged:
     """An object of a glTF file that can carry a tag."""
     array: str             # "materials", "meshes" or "nodes"
     index: int             # in that array
     name: str              # or ""
-    tag: Optional[dict]    # the nested form, or None; not checked
+    tag: Optional[Dict[str, Any]] # the nested form, or None; not checked
 
 
 def tags(path: Path) -> List[Tagged]:
@@ -55,7 +57,7 @@ def _list(data: bytes, name: str) -> List[Tagged]:
     return found
 
 
-def _choose(objects: List[Tagged], choices: tuple, path: str) -> Tagged:
+def _choose(objects: List[Tagged], choices: Tuple[Union[str, int, None], ...], path: str) -> Tagged:
     wanted = [(array, choice) for array, choice in zip(("materials", "meshes", "nodes"), choices) if choice is not None]
     if len(wanted) > 1:
         raise ValueError("expected one of material, mesh and node")
@@ -66,7 +68,7 @@ def _choose(objects: List[Tagged], choices: tuple, path: str) -> Tagged:
     return found[0]
 
 
-def _write(path: Path, out: Path, choices: tuple, patch: Any) -> None:
+def _write(path: Path, out: Path, choices: Tuple[Union[str, int, None], ...], patch: Any) -> None:
     name = os.fspath(path)
     with open(path, "rb") as file:
         data = file.read()
@@ -83,8 +85,8 @@ def _write(path: Path, out: Path, choices: tuple, patch: Any) -> None:
         raise KnurlError(lib.KNURL_ERROR_MEMORY, f"{name}: out of memory")
     partial = f"{os.fspath(out)}.{secrets.token_hex(8)}.part"
     try:
-        with open(partial, "xb") as file:
-            file.write(made[0])
+        with open(partial, "xb") as new:
+            new.write(made[0])
         os.replace(partial, out)
     except BaseException:
         if os.path.exists(partial):
