@@ -22,7 +22,7 @@ PLACES = {"plane": 4, "moving": 25, "surfaces_10k": 160}  # axis positions of sc
 # its fastest textured path (cAlgorithmFingerProxy::computeForces() alone), then the calls of its examples in each tick.
 CHAI3D_MEDIAN = ((4, 242, 661), (1e3, 506, 928), (1e4, 595, 1034), (1e5, 1479, 2111), (1e6, 3989, 4478))
 CHAI3D_PACED_MEDIAN = ((4, 2600, 5400), (1e3, 5000, 8800), (1e5, 9400, 12100), (1e6, 24000, 27000))
-CHAI3D_PACED_P99 = ((4, 5900), (1e3, 9800), (1e5, 36000), (1e6, 284000))  # its fastest path; the other's p99 was not kept
+CHAI3D_PACED_P99 = ((4, 5900), (1e3, 9800), (1e5, 36000), (1e6, 284000))  # its fastest path; no p99 of the other
 
 def band(ax, points, label, **style):
     """A line from the fastest path to the other."""
