@@ -147,7 +147,7 @@ int cmd_inspect(int argc, char **argv) {
     uint32_t skipped = 0;
     knurl_scene_desc desc;
     knurl_scene_desc_init(&desc, sizeof desc);
-    desc.full_model = full ? KNURL_FULL_ALL : 0;
+    desc.full_model = full != 0;
     knurl_device_info device;
     knurl_device_info_init(&device, sizeof device);
     if (knurl_scene_create(&desc, &scene) || tool_load(scene, path, &budget, &skipped) || knurl_scene_commit(scene) ||

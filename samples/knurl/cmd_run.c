@@ -134,7 +134,7 @@ static int load(run *r) {
     uint32_t skipped = 0;
     knurl_scene_desc desc;
     knurl_scene_desc_init(&desc, sizeof desc);
-    desc.full_model = o->full_model ? KNURL_FULL_ALL : 0;
+    desc.full_model = o->full_model != 0;
     if (knurl_scene_create(&desc, &r->scene) || tool_load(r->scene, o->path, &o->budget, &skipped) ||
         (o->method && set_methods(r->scene, o->method_id)) || knurl_scene_commit(r->scene)) {
         return tool_library_error(TOOL_FAILURE, NULL);

@@ -37,10 +37,6 @@ VALUES = {
     "knurl_scene_find_surface.name": '"plate"',
     "knurl_scene_get_surface_name.name": "&f->name",
     "knurl_scene_commit.scene": "f->open_scene",
-    "knurl_scene_get_transform.rotation": "f->matrix",
-    "knurl_scene_get_transform.position": "f->out",
-    "knurl_scene_set_user_data.user_data": "f",
-    "knurl_scene_get_user_data.user_data": "&f->user_data",
     "knurl_scene_get_contacts.contacts": "f->contacts",
     "knurl_scene_get_contacts.capacity": "1",
     "radius double": "1.0",
@@ -146,14 +142,14 @@ MAY_BE_NULL = {
     "knurl_scene_set_gains.gains",  # off
     "knurl_fail.format", "knurl_device_list.listings", "knurl_scene_add_surface.surface",
     "knurl_scene_get_tick.output", "knurl_scene_get_tick.counts", "knurl_scene_get_contacts.contacts",
-    "knurl_scene_set_user_data.user_data", "knurl_method_add.user",
+    "knurl_method_add.user",
     "knurl_gltf_load_file.options", "knurl_gltf_load_file.report", "knurl_fake_lay_stroke.report", "knurl_gltf_load_memory.options", "knurl_gltf_load_memory.report", "knurl_gltf_load_memory.name",
     "knurl_gltf_load_memory.folder", "knurl_gltf_list_tags.name", "knurl_gltf_list_tags.user", "knurl_gltf_set_tag.user", "knurl_gltf_set_tag.name", "knurl_gltf_set_tag.tag", "knurl_grating_step.position",
     "knurl_session_start.warning", "knurl_session_explain.text", "knurl_session_fault_text.text",
 }
 
 # On the haptic path, and so without a sentence where they return no result; KNURL_NONBLOCKING says so of the others.
-HAPTIC = {"knurl_device_halt", "knurl_device_release_halt", "knurl_device_is_halted"}
+HAPTIC = {"knurl_device_halt"}
 
 
 def declarations(text):

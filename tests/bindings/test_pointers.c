@@ -43,7 +43,6 @@ typedef struct fixture {
     double vector[4], axis[4], quaternion[4], matrix[12], rows[8], out[4], forces[12];
     float history[2];
     char text[256];
-    void *user_data;
     knurl_hip_contact contacts[1];
 } fixture;
 

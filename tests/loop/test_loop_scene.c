@@ -158,7 +158,7 @@ TEST_WITH(after_a_halt_the_force_climbs_back_over_the_ramp, NULL, end_rig) {
     }
     CHECK_SAME(r.written[5 + 22][1], 1.0L); /* 20 ms and the ticks at its ends */
     CHECK_SAME(r.written[44][1], 1.0L);
-    assert_int_equal(knurl_device_is_halted(&r.device), 0);
+    assert_int_equal(knurl_port_is_halted(&r.device), 0);
     rig_destroy(&r);
 }
 

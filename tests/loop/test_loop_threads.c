@@ -254,7 +254,7 @@ TEST_WITH(a_device_that_is_lost_ends_a_real_run, NULL, end_rig) {
     rig_run(&r);
     assert_int_equal(rig_stats(&r).state, KNURL_LOOP_LOST);
     assert_int_equal(rig_stats(&r).ticks, 100);
-    assert_int_equal(knurl_device_is_halted(device), 1);
+    assert_int_equal(knurl_port_is_halted(device), 1);
     knurl_loop_stop(r.loop);
     rig_destroy(&r);
 }
@@ -263,7 +263,7 @@ TEST_WITH(a_device_that_is_lost_ends_a_real_run, NULL, end_rig) {
 
 static void stall(rig *self) {
     sleep_s(0.2);
-    self->seen = knurl_device_is_halted(self->desc.device);
+    self->seen = knurl_port_is_halted(self->desc.device);
 }
 
 TEST_WITH(while_a_callback_stalls_the_watchdog_zeroes_the_force_and_it_comes_back_by_the_ramp, NULL, end_rig) {

@@ -2,6 +2,7 @@
  * libwebsockets where these are installed. SPDX-License-Identifier: MIT */
 #define _POSIX_C_SOURCE 200809L /* setenv() */
 
+#include "device/port.h"
 #include "memory/failing.h"
 #include "support/idle_device.h"
 
@@ -146,8 +147,8 @@ static knurl_result use_device(void) {
     (void)knurl_device_read(device, &sample);
     const knurl_result result = knurl_device_write(device, force);
     knurl_device_halt(device);
-    (void)knurl_device_is_halted(device);
-    knurl_device_release_halt(device);
+    (void)knurl_port_is_halted(device);
+    knurl_port_release_halt(device);
     (void)knurl_device_next_event(device, &event);
     return result ? result : knurl_device_zero_on_exit(0);
 }

@@ -12,8 +12,6 @@ TEST(edits_of_a_scene_refuse_null) {
     knurl_scene *none = NULL;
     const knurl_surface_desc *desc = surface_ready(&parts);
     const double at[3] = {0.0, 0.0, 0.1}, q[4] = {0.0, 0.0, 0.0, 1.0};
-    double position[3] = {7.0, 7.0, 7.0}, rotation[4] = {7.0, 7.0, 7.0, 7.0};
-    void *data = s;
     knurl_surface_id id = knurl_scene_get_surface(s, 0);
     knurl_scene_desc scene_desc;
     knurl_material_desc material = parts.material;
@@ -31,12 +29,6 @@ TEST(edits_of_a_scene_refuse_null) {
     REFUSED(knurl_scene_set_transform(NULL, id, at, q, 0.0), id);
     REFUSED(knurl_scene_set_transform(s, id, NULL, q, 0.0), id);
     REFUSED(knurl_scene_set_transform(s, id, at, NULL, 0.0), id);
-    REFUSED(knurl_scene_get_transform(NULL, id, position, rotation), position);
-    REFUSED(knurl_scene_get_transform(s, id, NULL, rotation), rotation);
-    REFUSED(knurl_scene_get_transform(s, id, position, NULL), position);
-    REFUSED(knurl_scene_set_user_data(NULL, id, s), id);
-    REFUSED(knurl_scene_get_user_data(NULL, id, &data), data);
-    REFUSED(knurl_scene_get_user_data(s, id, NULL), id);
     REFUSED(knurl_scene_commit(NULL), id);
     REFUSED(knurl_scene_lock_memory(NULL), id);
     knurl_scene_collect(NULL);

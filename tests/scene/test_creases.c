@@ -21,7 +21,7 @@ static knurl_scene *crease(int cut, double angle, double stiffness_left) {
     knurl_scene_desc desc;
     knurl_scene *scene = NULL;
     knurl_scene_desc_init(&desc, sizeof desc);
-    desc.full_model = cut == TWO_FULL_MESHES ? KNURL_FULL_ALL : 0;
+    desc.full_model = cut == TWO_FULL_MESHES ? 1 : 0;
     assert_int_equal(knurl_scene_create(&desc, &scene), KNURL_OK);
     configure_plainly(scene, 0);
     patch both = patch_new(4);

@@ -90,15 +90,11 @@ static shape wild_shape(void) {
 
 static void check_info(const knurl_scene *scene, knurl_surface_id id) {
     knurl_surface_info info;
-    double position[3], rotation[4];
     knurl_surface_info_init(&info, sizeof info);
     assert_int_equal(knurl_scene_get_surface_info(scene, id, &info), KNURL_OK);
     CHECK_FINITE(info, bounds_min, why);
     CHECK_FINITE(info, model_error, reversed_twins);
     CHECK_FINITE(info, axis, touching_pairs);
-    assert_int_equal(knurl_scene_get_transform(scene, id, position, rotation), KNURL_OK);
-    check_doubles("position", position, 0, sizeof position);
-    check_doubles("rotation", rotation, 0, sizeof rotation);
 }
 
 static void add_wild_surface(knurl_scene *scene) {

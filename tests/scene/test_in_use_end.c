@@ -1,5 +1,6 @@
 /* Device, scene and loop may end in any order, on any thread: a garbage-collected host finalises them so.
  * SPDX-License-Identifier: MIT */
+#include "device/port.h"
 #include "in_use.h"
 
 enum { IDLE, RUNNING, STEPPED, ENDED, STATES };
@@ -94,9 +95,9 @@ TEST(a_closed_device_gets_no_force_any_more_whatever_its_loop_does) {
     set_up(0);
     start_and_push();
     knurl_device_close(s.device);
-    assert_int_equal(knurl_device_is_halted(s.device), 1); /* memory that its loop still keeps */
-    knurl_device_release_halt(s.device);
-    assert_int_equal(knurl_device_is_halted(s.device), 1); /* for good */
+    assert_int_equal(knurl_port_is_halted(s.device), 1); /* memory that its loop still keeps */
+    knurl_port_release_halt(s.device);
+    assert_int_equal(knurl_port_is_halted(s.device), 1); /* for good */
     assert_int_equal(knurl_loop_wait(s.loop, 10.0), 1);
     assert_true(motor() == 0.0);
     assert_int_equal(next_code(s.device, KNURL_FAULT_OVERRUN), 0); /* a close is no fault, and nothing resumed */

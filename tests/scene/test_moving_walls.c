@@ -107,7 +107,7 @@ static void meet_head_on(int kind, uint32_t full_model, uint64_t *seed) {
 TEST(no_wall_that_comes_head_on_tunnels) {
     uint64_t seed = 21;
     for (int run = 0; run < 300; run++) {
-        meet_head_on(run % 3, run % 2 ? 0 : KNURL_FULL_ALL, &seed);
+        meet_head_on(run % 3, run % 2 ? 0 : 1, &seed);
     }
 }
 
@@ -163,7 +163,7 @@ TEST(what_comes_from_any_side_to_a_hip_at_rest_is_felt) {
 TEST(no_paddle_that_swings_round_tunnels) {
     uint64_t seed = 22;
     for (int run = 0; run < 300; run++) {
-        swing(run % 3, run % 2 ? 0 : KNURL_FULL_ALL, &seed);
+        swing(run % 3, run % 2 ? 0 : 1, &seed);
     }
 }
 

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: MIT */
 #define _DEFAULT_SOURCE 1 /* fork(), syscall() */
 
+#include "full_model.h"
 #include "support/scenes.h"
 
 #include <pthread.h>
@@ -223,8 +224,8 @@ static knurl_scene *make_scene(const struct stroked *what) {
     knurl_workspace workspace;
     knurl_hip_desc hip;
     knurl_scene_desc_init(&desc, sizeof desc);
-    desc.full_model = what->full_model;
     assert_int_equal(knurl_scene_create(&desc, &scene), KNURL_OK);
+    set_full_model(scene, what->full_model);
     what->add(scene, what->method, what->friction);
     knurl_workspace_set_identity(&workspace);
     knurl_hip_desc_init(&hip, sizeof hip);

@@ -1,5 +1,5 @@
-/* What a game asks about a scene: where a surface is, whether it exists, what of the game's it belongs to, what is
- * closest to a point, all contacts of a HIP. SPDX-License-Identifier: MIT */
+/* What a game asks about a scene: where a surface is, whether it exists, what is closest to a point, all contacts of a
+ * HIP. SPDX-License-Identifier: MIT */
 #include "support/poses.h"
 
 static double flat(double x, double y) {
@@ -8,42 +8,18 @@ static double flat(double x, double y) {
     return 0.0;
 }
 
-static void check_transform(const knurl_scene *scene, knurl_surface_id id, const pose *expected) {
-    double position[3];
-    double rotation[4];
-    assert_int_equal(knurl_scene_get_transform(scene, id, position, rotation), KNURL_OK);
-    CHECK_VECTOR(position, expected->position[0], expected->position[1], expected->position[2], 1e-12);
-    double same = 0.0; /* the dot product of two unit quaternions: q and -q are one rotation */
-    for (int i = 0; i < 4; i++) {
-        same += rotation[i] * expected->quaternion[i];
-    }
-    CHECK_CLOSE(fabs(same), 1.0, 1e-12);
-}
-
-/* The second is a flat mesh off its origin, which the scene keeps as a plane with a frame of its own. */
-TEST(the_transform_that_was_set_is_got) {
-    uint64_t seed = 23;
-    SCOPED_SHAPE sheet = shape_sheet(4, 4, (const double[2]){0.02, 0.03}, flat);
-    for (uint32_t i = 0; i < sheet.vertex_count; i++) {
-        sheet.positions[3 * i] += 0.25F;
-    }
-    surface_parts parts[2] = {surface_plane(), surface_mesh(&sheet)};
-    for (int i = 0; i < 2; i++) {
-        for (int k = 0; k < 50; k++) {
-            const pose before = random_pose(&seed), after = random_pose(&seed);
-            memcpy(parts[i].desc.position, before.position, sizeof before.position);
-            memcpy(parts[i].desc.rotation, before.quaternion, sizeof before.quaternion);
-            parts[i].desc.axis[0] = 1.0;
-            SCOPED_SCENE *scene = scene_of(&parts[i]);
-            const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
-            check_transform(scene, id, &before);
-            assert_int_equal(knurl_scene_set_transform(scene, id, after.position, after.quaternion, 0.0), KNURL_OK);
-            check_transform(scene, id, &after);
-        }
+static void check_frame(const knurl_scene *scene, knurl_surface_id plane, const pose *expected) {
+    const plane_frame found = frame_of(scene, plane);
+    CHECK_VECTOR(found.centre, expected->position[0], expected->position[1], expected->position[2], 1e-12);
+    for (int i = 0; i < 3; i++) {
+        const double along[3] = {i == 0, i == 1, i == 2};
+        double turned[3];
+        turn(expected->quaternion, along, turned);
+        CHECK_VECTOR(found.axes[i], turned[0], turned[1], turned[2], 1e-12);
     }
 }
 
-TEST(the_transform_of_a_moving_surface_is_that_on_its_way) {
+TEST(a_moving_surface_is_described_on_its_way) {
     static const double z[3] = {0.0, 0.0, 1.0};
     surface_parts parts = surface_plane();
     SCOPED_SCENE *scene = scene_of(&parts);
@@ -55,11 +31,11 @@ TEST(the_transform_of_a_moving_surface_is_that_on_its_way) {
     for (int tick = 0; tick < 50; tick++) {
         (void)tick_at(scene, 0.0, 0.0, 0.5);
     }
-    check_transform(scene, id, &middle);
+    check_frame(scene, id, &middle);
     for (int tick = 0; tick < 60; tick++) {
         (void)tick_at(scene, 0.0, 0.0, 0.5);
     }
-    check_transform(scene, id, &end);
+    check_frame(scene, id, &end);
 }
 
 TEST(ids_are_valid_while_their_surface_is_in_their_scene) {
@@ -72,23 +48,6 @@ TEST(ids_are_valid_while_their_surface_is_in_their_scene) {
     assert_int_equal(knurl_scene_has_surface(other, id), 0);
     assert_int_equal(knurl_scene_remove_surface(scene, id), KNURL_OK);
     assert_int_equal(knurl_scene_has_surface(scene, id), 0);
-}
-
-TEST(user_data_stays_with_a_surface_until_it_is_removed) {
-    int thing;
-    void *data = &thing;
-    surface_parts parts = surface_plane();
-    SCOPED_SCENE *scene = scene_of(&parts);
-    const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
-    assert_int_equal(knurl_scene_get_user_data(scene, id, &data), KNURL_OK);
-    assert_null(data);
-    assert_int_equal(knurl_scene_set_user_data(scene, id, &thing), KNURL_OK);
-    assert_int_equal(knurl_scene_replace_surface(scene, id, surface_ready(&parts)), KNURL_OK);
-    assert_int_equal(knurl_scene_get_user_data(scene, id, &data), KNURL_OK);
-    assert_ptr_equal(data, &thing);
-    assert_int_equal(knurl_scene_remove_surface(scene, id), KNURL_OK);
-    assert_int_equal(knurl_scene_get_user_data(scene, id, &data), KNURL_ERROR_STALE_ID);
-    assert_int_equal(knurl_scene_set_user_data(scene, id, &thing), KNURL_ERROR_STALE_ID);
 }
 
 /* --- the closest point --- */

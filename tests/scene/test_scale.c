@@ -1,5 +1,6 @@
 /* Many surfaces: a HIP that looks only at those near it feels what one feels that looks at all of them, whatever is
  * edited meanwhile. SPDX-License-Identifier: MIT */
+#include "full_model.h"
 #include "support/poses.h"
 
 #define SIDE  100  /* tiles along each side */
@@ -12,8 +13,8 @@ static knurl_scene *many_scene(uint32_t full_model, uint32_t hips) {
     knurl_scene_desc_init(&desc, sizeof desc);
     desc.max_surfaces = 2 * SIDE * SIDE;
     desc.hip_count = hips;
-    desc.full_model = full_model;
     assert_int_equal(knurl_scene_create(&desc, &scene), KNURL_OK);
+    set_full_model(scene, full_model);
     for (uint32_t i = 0; i < hips; i++) {
         configure_plainly(scene, i);
     }

@@ -1,5 +1,5 @@
 /* A scene's life on the game thread: every documented error, ids, names, memory. SPDX-License-Identifier: MIT */
-#include "support/scenes.h"
+#include "support/poses.h"
 
 static const double NO_NUMBERS[] = {(double)NAN, (double)INFINITY, (double)-INFINITY};
 
@@ -243,19 +243,24 @@ TEST(a_surface_with_a_normal_is_turned_to_it_the_shortest_way) {
                                         {0.3, -0.4, 0.0}, {0.0, 1e-3, -1.0}};
     surface_parts parts = surface_plane();
     SCOPED_SCENE *scene = empty_scene(1);
-    double position[3], q[4];
     for (size_t i = 0; i < COUNT_OF(normals); i++) {
         const double *n = normals[i];
         const double side = hypot(n[0], n[1]), angle = atan2(side, n[2]);
         const double part = side > 0.0 ? sin(0.5 * angle) / side : 0.0;
         memcpy(parts.desc.normal, n, sizeof parts.desc.normal);
-        assert_int_equal(knurl_scene_get_transform(scene, add_surface(scene, &parts), position, q), KNURL_OK);
-        CHECK_CLOSE(fabs(q[0] * -n[1] * part + q[1] * n[0] * part + q[3] * cos(0.5 * angle)), 1.0, 1e-15L);
-        CHECK_CLOSE(q[2], 0.0, 1e-15L);
+        const double q[4] = {-n[1] * part, n[0] * part, 0.0, cos(0.5 * angle)};
+        const plane_frame found = frame_of(scene, add_surface(scene, &parts));
+        for (int axis = 0; axis < 3; axis++) {
+            const double along[3] = {axis == 0, axis == 1, axis == 2};
+            double turned[3];
+            turn(q, along, turned);
+            CHECK_VECTOR(found.axes[axis], turned[0], turned[1], turned[2], 1e-15);
+        }
     }
     parts.desc.normal[0] = parts.desc.normal[1] = 0.0;
-    assert_int_equal(knurl_scene_get_transform(scene, add_surface(scene, &parts), position, q), KNURL_OK);
-    CHECK_CLOSE(fabs(q[0]), 1.0, 1e-15L); /* to -z, about x */
+    const plane_frame about_x = frame_of(scene, add_surface(scene, &parts)); /* to -z */
+    CHECK_VECTOR(about_x.axes[0], 1.0, 0.0, 0.0, 1e-15);
+    CHECK_VECTOR(about_x.axes[2], 0.0, 0.0, -1.0, 1e-15);
     parts.desc.rotation[0] = 1.0;
     parts.desc.rotation[3] = 0.0;
     CHECK_ADD_REFUSED(scene, &parts, KNURL_ERROR_ARGUMENT,

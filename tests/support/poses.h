@@ -64,6 +64,23 @@ static inline void place(surface_parts *parts, const pose *p) {
     memcpy(parts->desc.rotation, p->quaternion, sizeof p->quaternion);
 }
 
+/** A plane's centre and axes in the scene, now. */
+typedef struct plane_frame {
+    double centre[3], axes[3][3];
+} plane_frame;
+
+static inline plane_frame frame_of(const knurl_scene *scene, knurl_surface_id plane) {
+    plane_frame found;
+    knurl_surface_info info;
+    knurl_surface_info_init(&info, sizeof info);
+    assert_int_equal(knurl_scene_get_surface_info(scene, plane, &info), KNURL_OK);
+    memcpy(found.centre, info.anchor, sizeof found.centre);
+    memcpy(found.axes[0], info.anchor_x, sizeof info.anchor_x);
+    memcpy(found.axes[2], info.anchor_normal, sizeof info.anchor_normal);
+    cross3(found.axes[2], found.axes[0], found.axes[1]);
+    return found;
+}
+
 /** Moves a surface, which must work. */
 static inline void move_to(knurl_scene *scene, knurl_surface_id surface, const pose *p, double seconds) {
     assert_int_equal(knurl_scene_set_transform(scene, surface, p->position, p->quaternion, seconds), KNURL_OK);

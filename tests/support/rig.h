@@ -6,6 +6,7 @@
 #include "support/close.h"
 
 #include "device/driver.h"
+#include "device/port.h"
 
 #include <knurl/knurl.h>
 
@@ -155,7 +156,7 @@ static inline knurl_loop_stats rig_stats(const rig *r) {
 
 /** After the end: no force, whatever the last one was. */
 static inline void rig_check_halted(const rig *r) {
-    assert_true(knurl_device_is_halted(&r->device));
+    assert_true(knurl_port_is_halted(&r->device));
 }
 
 static inline void rig_destroy(rig *r) {

@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "df4a343f7174148f"
+#define KNURL_UNITY_INTERFACE "7f5432b609e9523e"
 
 /** Everything mirrored, where C# expects it: STRUCT(type, bytes), FIELD(type, field, its name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
@@ -181,14 +181,13 @@
     FIELD(knurl_hip_contact, normal, "normal", 32, 24) \
     FIELD(knurl_hip_contact, depth, "depth", 56, 8) \
     FIELD(knurl_hip_contact, reserved, "reserved", 64, 48) \
-    STRUCT(knurl_audio_desc, 40) \
+    STRUCT(knurl_audio_desc, 32) \
     FIELD(knurl_audio_desc, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_audio_desc, is_offline, "is_offline", 4, 4) \
     FIELD(knurl_audio_desc, update_rate_hz, "update_rate_hz", 8, 8) \
     FIELD(knurl_audio_desc, sample_rate_hz, "sample_rate_hz", 16, 8) \
-    FIELD(knurl_audio_desc, full_scale, "full_scale", 24, 8) \
-    FIELD(knurl_audio_desc, latency_s, "latency_s", 32, 8) \
-    STRUCT(knurl_device_info, 208) \
+    FIELD(knurl_audio_desc, latency_s, "latency_s", 24, 8) \
+    STRUCT(knurl_device_info, 200) \
     FIELD(knurl_device_info, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_device_info, reserved, "reserved", 4, 4) \
     FIELD(knurl_device_info, name, "name", 8, 64) \
@@ -203,8 +202,7 @@
     FIELD(knurl_device_info, viscous, "viscous", 168, 8) \
     FIELD(knurl_device_info, coulomb, "coulomb", 176, 8) \
     FIELD(knurl_device_info, max_stiffness, "max_stiffness", 184, 8) \
-    FIELD(knurl_device_info, max_damping, "max_damping", 192, 8) \
-    FIELD(knurl_device_info, native_rate, "native_rate", 200, 8) \
+    FIELD(knurl_device_info, native_rate, "native_rate", 192, 8) \
     STRUCT(knurl_device_sample, 96) \
     FIELD(knurl_device_sample, position, "position", 0, 24) \
     FIELD(knurl_device_sample, orientation, "orientation", 24, 32) \

@@ -17,8 +17,6 @@ typedef struct knurl_audio_desc {
     uint32_t is_offline;   /**< 1: for rendering to a file: no tick is skipped or played faster or slower; default 0 */
     double update_rate_hz; /**< ticks per second, KNURL_UPDATE_RATE_MIN to _MAX; default 1000 */
     double sample_rate_hz; /**< samples per second, 8000 to 192000; default 48000 */
-    double full_scale;     /**< N, > 0: a texture that changes the force by plus and minus this much, or more, plays at
-                              +-0.5. Default 0.25 */
     double latency_s;      /**< s of ticks kept in reserve, because audio and haptic threads run unevenly: 0 to 0.1;
                                 default 0.01 */
 } knurl_audio_desc;
@@ -43,15 +41,13 @@ KNURL_API void knurl_audio_take(const knurl_tick_output *output, void *audio) KN
  *   high-passed at 20 Hz: lines at f_t and its odd harmonics, on a grid at sums and differences of both axes'
  *   frequencies. Aliases are 60 dB lower, even if f_t is above f_h/2. Between two ticks the HIP moves evenly over the
  *   grating; its motion is smoothed by 4 ms, because encoders quantise it.
- * - Loudness: the change of the force at changes of the height, over the last 32 to 64 ms. Touch, lift and changes of
- *   loudness fade over up to 5 ms. The sound is exactly 0 before the first tick, and within 0.5 s of the last motion.
+ * - Loudness: the change of the force at changes of the height, over the last 32 to 64 ms: plus and minus 0.25 N, or
+ *   more, play at +-0.5. Touch, lift and changes of loudness fade over up to 5 ms. The sound is exactly 0 before the
+ *   first tick, and within 0.5 s of the last motion.
  * - Latency: a sample comes latency_s + 2 ticks + 4.2 ms after its tick, plus at most 20 ms and another `count` samples
  *   if the audio thread was late; ticks beyond that are skipped. A difference of up to 0.5 % between the two threads'
  *   clocks is compensated by playing faster or slower. */
 KNURL_API void knurl_audio_fill(knurl_audio *audio, float *samples, uint32_t count) KNURL_NONBLOCKING;
-
-/** s: from the last queued tick to the last rendered sample; 0 before the first sample and for null. [audio thread] */
-KNURL_API double knurl_audio_get_latency(const knurl_audio *audio) KNURL_NONBLOCKING;
 
 #ifdef __cplusplus
 }

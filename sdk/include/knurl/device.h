@@ -30,7 +30,6 @@ typedef struct knurl_device_info {
     double viscous;          /**< the device's own viscous friction, 0 to 1000 N s/m */
     double coulomb;          /**< the device's own dry friction, 0 to 10 N */
     double max_stiffness;    /**< the stiffest wall in its maker's specification, 1 to 1e9 N/m; or INFINITY */
-    double max_damping;      /**< the strongest damper in its maker's specification, 0 to 1e4 N s/m; or INFINITY */
     double native_rate;      /**< its own rate of position reports, 1 to 1e5 Hz; 0: a new position at each read */
 } knurl_device_info;
 
@@ -212,10 +211,10 @@ KNURL_API const char *knurl_fault_unit(int32_t code);
  * thread] */
 KNURL_API const char *knurl_fault_cause(int32_t code, double value);
 
-/** Prepares for reads every 1/update_rate_hz; the fake device's simulated time restarts. If the device is lost, it is
- * searched for first. Errors: KNURL_ERROR_ARGUMENT (rate), KNURL_ERROR_UNSUPPORTED (a rate that the device cannot keep;
- * with an I/O thread below 200 Hz), KNURL_ERROR_DEVICE_LOST, KNURL_ERROR_STATE (a loop uses the device and has started
- * it). [game thread] */
+/** Prepares for reads every 1/update_rate_hz; the fake device's simulated time restarts. Ends a halt. If the device is
+ * lost, it is searched for first. Errors: KNURL_ERROR_ARGUMENT (rate), KNURL_ERROR_UNSUPPORTED (a rate that the device
+ * cannot keep; with an I/O thread below 200 Hz), KNURL_ERROR_DEVICE_LOST, KNURL_ERROR_STATE (a loop uses the device and
+ * has started it). [game thread] */
 KNURL_API knurl_result knurl_device_start(knurl_device *device, double update_rate_hz);
 
 /** Reads the newest sample; the fake device's simulated time advances by one period. A Touch can be read and written
@@ -230,15 +229,9 @@ KNURL_API knurl_result knurl_device_read(knurl_device *device, knurl_device_samp
  * Errors: KNURL_ERROR_DEVICE_LOST, KNURL_ERROR_STATE. No heap, lock, wait or formatting. [haptic thread] */
 KNURL_API knurl_result knurl_device_write(knurl_device *device, const double force[3]);
 
-/** Zeroes the force at once, whatever the haptic thread does. Forces written later have no effect until
- * knurl_device_release_halt(). [any thread] */
+/** Zeroes the force at once, whatever the haptic thread does. Forces written later have no effect until its loop
+ * ramps them up again (in the next tick) or, without a loop, until knurl_device_start(). [any thread] */
 KNURL_API void knurl_device_halt(knurl_device *device);
-
-/** Ends a halt. [haptic thread] */
-KNURL_API void knurl_device_release_halt(knurl_device *device);
-
-/** 1 while halted; 0 for an invalid handle. [any thread] */
-KNURL_API uint32_t knurl_device_is_halted(const knurl_device *device);
 
 /** Zeroes the forces of all open devices before the process ends or stops; off until called. It waits up to 20 ms until
  * zero has been sent by the device's I/O thread, or by the haptic thread if there is no I/O thread.

@@ -20,17 +20,14 @@ extern "C" {
 
 /** The protections of a HIP, all on by default. */
 enum {
-    KNURL_PROTECT_ENTRY = 1, /**< entry ramp: the depth in Eq. 9 grows at most at KNURL_ENTRY_SPEED_MAX */
+    KNURL_PROTECT_ENTRY = 1, /**< entry ramp: the depth in Eq. 9 grows at most at 0.5 m/s, so that a wall that appears
+                                around the HIP pushes it out gradually */
     KNURL_PROTECT_SLEW = 2,  /**< the device's force grows and turns at most at slew_rate, except for the texture's own
                                 steps; after KNURL_TICK_SQUEEZED it also falls at most at that rate */
     KNURL_PROTECT_HEAT = 4,  /**< the force is reduced towards continuous_force as the motors warm up */
     KNURL_PROTECT_PASSIVITY = 8, /**< a wall is softened if it makes the hand oscillate */
     KNURL_PROTECT_ALL = 15
 };
-
-/** m/s: the fastest growth of the depth under the entry ramp. If a wall appears around the HIP, it pushes the HIP out
- * gradually. */
-#define KNURL_ENTRY_SPEED_MAX 0.5
 
 /** Visits of a tick, the limit of contact's cost: of triangles, planes and nodes of meshes' hierarchies. The closest
  * point of a triangle is five visits, or ten if the proxy walks to it. The worst scenes known, most of which use them
@@ -201,7 +198,7 @@ typedef struct knurl_hip_counts {
  *
  * Bounded time: contact visits at most KNURL_VISITS_MAX triangles, planes and nodes (half as many more if a
  * contact begins); the search for nearby surfaces visits those that moved lately and few others (all with
- * KNURL_FULL_SEARCH). No heap, lock, system call, clock, log or file, whatever other threads edit. `output` is always
+ * full_model). No heap, lock, system call, clock, log or file, whatever other threads edit. `output` is always
  * filled in, with zero force if the result is not KNURL_OK. Errors: KNURL_ERROR_STATE (not committed, or a loop has the
  * HIP), KNURL_ERROR_ARGUMENT (hip, null or an invalid handle). [haptic thread, one per HIP] */
 KNURL_API knurl_result knurl_scene_tick(knurl_scene *scene, uint32_t hip, const knurl_tick_input *input,

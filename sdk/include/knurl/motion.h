@@ -16,21 +16,15 @@ extern "C" {
  *   divided by the time between them. Before that, positions pass a backlash of one quantum: if an encoder flickers
  *   between two neighbouring values, the velocity is exactly 0; constant motion is unchanged; a reversal loses one
  *   quantum, a first motion half of one.
+ *   Samples are round(rate / 1 kHz) ticks apart, at least one and at most 10, so that the widest window is 15 ms at
+ *   whole kilohertz up to 10; from 10.5 kHz on it is 150 ticks. The newest sample is always this tick's.
  * - AUTO: FOAW if the resolution is known (> 0), DIFFERENCE if it is 0.
  *
  * FOAW was chosen by the study `velocity` (samples/study/README.md). Errors (rms) at 0.055 mm and 1 kHz from 5 to 200
- * mm/s: FOAW 0.4 to 1.5 mm/s, a low pass of equal delay 1.9 to 2.3, a difference 16 to 26; at 10 kHz the same. Below
- * one quantum in 15 ms (3.7 mm/s) FOAW gives pulses of up to 5 mm/s. */
+ * mm/s: FOAW 0.4 to 1.5 mm/s, a low pass of equal delay 1.9 to 2.3, a difference 16 to 26; at 10 kHz the same. A
+ * window of 30 ms has 0.7 times the error at 10 mm/s, 7 ms more delay, and a larger error from 100 mm/s on. Below one
+ * quantum in 15 ms (3.7 mm/s) FOAW gives pulses of up to 5 mm/s. */
 enum { KNURL_VELOCITY_AUTO = 0, KNURL_VELOCITY_DIFFERENCE = 1, KNURL_VELOCITY_FOAW = 2 };
-
-/** FOAW's widest window in samples: 15 ms at 1 kHz, a common choice. In the study, twice that has 0.7 times the error
- * at 10 mm/s, 7 ms more delay, and a larger error from 100 mm/s on. At other rates samples are round(rate / 1 kHz)
- * ticks apart, at least one and at most KNURL_FOAW_STRIDE_MAX, so that the window is 15 ms at whole kilohertz up to
- * 10. The newest sample is always this tick's. */
-#define KNURL_FOAW_WINDOW 15
-
-/** The most ticks between FOAW's samples; from 10.5 kHz on the window is 150 ticks, and shorter than 15 ms. */
-#define KNURL_FOAW_STRIDE_MAX 10
 
 /** A velocity estimator of one point; one per HIP, set up by knurl_velocity_prepare(). It may be copied and needs no
  * freeing. Its size is the same in all versions; its contents are the library's and may change. */

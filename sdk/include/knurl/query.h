@@ -114,16 +114,16 @@ enum {
     KNURL_LIMIT_AMPLITUDE = 4, /**< the texture's highest force swing, K A times the method's peaks, above max_force */
     KNURL_LIMIT_HEAT = 8,      /**< the texture's rms force K A above the device's continuous_force */
     KNURL_LIMIT_PERIOD = 16,   /**< ridges narrower than two of the device's position quanta */
+    KNURL_LIMIT_STRETCH = 32, /**< uneven uvs: somewhere S1 and BANDLIMITED render more than KNURL_STRETCH_MAX times the
+                                 material's ridges per metre, or fewer than 1 / KNURL_STRETCH_MAX */
     KNURL_LIMIT_FAR = 64, /**< farther than KNURL_FAR from the scene's origin: float32 positions are centimetres apart
                                there */
     KNURL_LIMIT_VISITS = 128,  /**< contact reaches KNURL_VISITS_MAX at one of 65 places of the mesh; or, once
                                   committed, 15 other meshes are within 1 mm of its anchor */
     KNURL_LIMIT_WINDING = 256, /**< mixed winding, turned over (knurl_surface_info.turned_triangles) or not; or reversed
                                   twins of some triangles, but not of all */
-    KNURL_LIMIT_NORMALS = 512, /**< normals that cannot be right: their triangles are felt flat
+    KNURL_LIMIT_NORMALS = 512  /**< normals that cannot be right: their triangles are felt flat
                                   (knurl_surface_info.bad_normals) */
-    KNURL_LIMIT_STRETCH = 32 /**< uneven uvs: somewhere S1 and BANDLIMITED render more than KNURL_STRETCH_MAX times the
-                              material's ridges per metre, or fewer than 1 / KNURL_STRETCH_MAX */
 };
 
 /** m: beyond this distance from the origin, the float32 coordinates of meshes and engines are 6 cm apart or more. */

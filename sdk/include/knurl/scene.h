@@ -73,20 +73,12 @@ typedef struct knurl_surface_desc {
 /** Fills in defaults; `size` is the caller's sizeof. [any thread] */
 KNURL_API void knurl_surface_desc_init(knurl_surface_desc *desc, uint32_t size);
 
-/** A scene leaves out work that its surfaces do not need. Each bit switches one such reduction off, to compare: the
- * tool does (--full-model), tests with one bit at a time. */
-enum {
-    KNURL_FULL_MESHES = 1,  /**< flat meshes stay meshes, instead of planes with an outline */
-    KNURL_FULL_SEARCH = 2,  /**< every tick tests all surfaces, instead of nearby ones */
-    KNURL_FULL_GRATING = 4, /**< smooth surfaces run the grating stage, instead of skipping it */
-    KNURL_FULL_ALL = 7
-};
-
 typedef struct knurl_scene_desc {
-    uint32_t struct_size;             /**< set by knurl_scene_desc_init() */
-    uint32_t max_surfaces;            /**< capacity, 1 to 2^20; default 4096 */
-    uint32_t hip_count;               /**< HIPs, 1 to 8; default 1 */
-    uint32_t full_model;              /**< KNURL_FULL_ bits: reductions to switch off; default 0 */
+    uint32_t struct_size;  /**< set by knurl_scene_desc_init() */
+    uint32_t max_surfaces; /**< capacity, 1 to 2^20; default 4096 */
+    uint32_t hip_count;    /**< HIPs, 1 to 8; default 1 */
+    uint32_t full_model;   /**< 1: flat meshes stay meshes, every tick tests all surfaces, and smooth ones run
+                              the grating stage, to compare; default 0: only the work that surfaces need */
     const knurl_allocator *allocator; /**< copied; null: malloc and free */
 } knurl_scene_desc;
 
@@ -142,19 +134,6 @@ KNURL_API knurl_result knurl_scene_get_material(const knurl_scene *scene, knurl_
  * KNURL_ERROR_STALE_ID, KNURL_ERROR_MEMORY. [any thread but the haptic] */
 KNURL_API knurl_result knurl_scene_set_transform(knurl_scene *scene, knurl_surface_id surface, const double position[3],
                                                  const double rotation[4], double seconds);
-
-/** A surface's current origin (m) and rotation (unit quaternion x, y, z, w), in scene axes, also during a motion.
- * Errors: KNURL_ERROR_STALE_ID. [any thread but the haptic] */
-KNURL_API knurl_result knurl_scene_get_transform(const knurl_scene *scene, knurl_surface_id surface, double position[3],
-                                                 double rotation[4]);
-
-/** Stores a caller's pointer with a surface, for example to the game's object; the scene never uses it.
- * knurl_scene_replace_surface() keeps it. Errors: KNURL_ERROR_STALE_ID. [any thread but the haptic] */
-KNURL_API knurl_result knurl_scene_set_user_data(knurl_scene *scene, knurl_surface_id surface, void *user_data);
-
-/** The pointer stored by knurl_scene_set_user_data(), or null. Errors: KNURL_ERROR_STALE_ID. [any thread but the
- * haptic] */
-KNURL_API knurl_result knurl_scene_get_user_data(const knurl_scene *scene, knurl_surface_id surface, void **user_data);
 
 /** Prepares the scene for ticks: builds the broad phase over its surfaces. Call it once, after adding the first
  * surfaces. Errors: KNURL_ERROR_STATE (committed already), KNURL_ERROR_MEMORY. [game thread] */

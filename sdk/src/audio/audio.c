@@ -13,6 +13,7 @@
 #define RING_TICKS    16384 /* 1.6 s at 10 kHz */
 #define LATE_S        0.02  /* ticks are skipped if the lag is longer than this */
 #define FADE_S        0.005 /* fade between silence and full scale */
+#define FULL_SCALE    0.25  /* N: a change of the force by plus and minus this much is as loud as it gets */
 #define DRIFT_MAX     0.005 /* the largest relative change of speed */
 #define DRIFT_S       2.0   /* time to catch up with a lag */
 #define EVEN_TICKS    2.0   /* ticks: a lag below this is the jitter of the threads, not drift */
@@ -43,12 +44,12 @@ struct knurl_audio {
     uint32_t plays; /* 1: enough ticks were queued to begin */
     double at;      /* between tick `read` and the next, 0 to 1 */
     double place[2];
-    double level, latency;
+    double level;
     knurl_wave_filter filter;
 };
 
 void knurl_audio_desc_init(knurl_audio_desc *desc, uint32_t size) {
-    const knurl_audio_desc defaults = {sizeof defaults, 0, 1000.0, 48000.0, 0.25, 0.01};
+    const knurl_audio_desc defaults = {sizeof defaults, 0, 1000.0, 48000.0, 0.01};
     knurl_desc_write(&defaults, sizeof defaults, desc, size);
 }
 
@@ -71,7 +72,6 @@ knurl_result knurl_audio_create(const knurl_audio_desc *desc, knurl_audio **audi
         result = knurl_fail(KNURL_ERROR_ARGUMENT, "is_offline: expected 0 or 1, found %u", (unsigned)d.is_offline);
     }
     result = result ? result : check("sample_rate_hz", "Hz", d.sample_rate_hz, 8000.0, 192000.0);
-    result = result ? result : check("full_scale", "N", d.full_scale, 1e-6, 1e6);
     result = result ? result : check("latency_s", "s", d.latency_s, 0.0, 0.1);
     if (result) {
         return result;
@@ -131,7 +131,7 @@ void knurl_audio_take(const knurl_tick_output *output, void *audio) {
     const double likely = output->temporal_frequency / rate;
     const uint32_t in_contact = output->flags & KNURL_TICK_CONTACT;
     audio_tick tick = {{0.0, 0.0}, 0.0};
-    tick.loudness = fmin(1.0, knurl_loudness_update(&a->loudness, output) / a->desc.full_scale);
+    tick.loudness = fmin(1.0, knurl_loudness_update(&a->loudness, output) / FULL_SCALE);
     for (int i = 0; i < 2; i++) {
         const int moves = in_contact && a->in_contact;
         tick.step[i] =
@@ -220,9 +220,4 @@ void knurl_audio_fill(knurl_audio *a, float *samples, uint32_t count) {
         const double sample = 0.5 * find_level(a) * knurl_wave_filter_pull(&a->filter);
         samples[i] = (float)fmax(-1.0, fmin(1.0, sample));
     }
-    a->latency = ((double)(written - a->read) - a->at) / a->desc.update_rate_hz;
-}
-
-double knurl_audio_get_latency(const knurl_audio *audio) {
-    return KNURL_IS_HANDLE(audio, AUDIO) ? audio->latency : 0.0;
 }

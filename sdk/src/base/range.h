@@ -19,7 +19,6 @@
 #define KNURL_RANGE_VISCOUS   0.0, 1000.0, "N s/m"
 #define KNURL_RANGE_COULOMB   0.0, 10.0, "N"
 #define KNURL_RANGE_STIFFNESS 1.0, 1e9, "N/m"
-#define KNURL_RANGE_DAMPING   0.0, 1e4, "N s/m"
 #define KNURL_RANGE_QUANTUM   1e-9, 0.01, "m"
 #define KNURL_RANGE_DELAY     0.0, 16.0, "ticks"
 #define KNURL_RANGE_CORNER -KNURL_COORDINATE_MAX, KNURL_COORDINATE_MAX, "m" /* a mouse's workspace is a whole scene */

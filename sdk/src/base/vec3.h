@@ -114,25 +114,6 @@ static inline void quat_to_matrix(const double q[4], double m[9]) {
     m[8] = 1.0 - 2.0 * (x * x + y * y);
 }
 
-/* The unit quaternion of a rotation matrix (row-major), from its largest component, to avoid small divisors. */
-static inline void quat_from_matrix(const double m[9], double q[4]) {
-    const double squares[4] = {1.0 + m[0] - m[4] - m[8], 1.0 - m[0] + m[4] - m[8], 1.0 - m[0] - m[4] + m[8],
-                               1.0 + m[0] + m[4] + m[8]};
-    const double products[4][4] = {{squares[0], m[1] + m[3], m[2] + m[6], m[7] - m[5]},
-                                   {m[1] + m[3], squares[1], m[5] + m[7], m[2] - m[6]},
-                                   {m[2] + m[6], m[5] + m[7], squares[2], m[3] - m[1]},
-                                   {m[7] - m[5], m[2] - m[6], m[3] - m[1], squares[3]}};
-    int largest = 3;
-    for (int i = 0; i < 3; i++) {
-        largest = squares[i] > squares[largest] ? i : largest;
-    }
-    const double *row = products[largest];
-    const double length = sqrt(row[0] * row[0] + row[1] * row[1] + row[2] * row[2] + row[3] * row[3]);
-    for (int i = 0; i < 4; i++) {
-        q[i] = row[i] / length;
-    }
-}
-
 static inline void mat3_mul(const double m[9], const double a[3], double out[3]) {
     const double x = m[0] * a[0] + m[1] * a[1] + m[2] * a[2];
     const double y = m[3] * a[0] + m[4] * a[1] + m[5] * a[2];

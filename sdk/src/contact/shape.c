@@ -226,7 +226,7 @@ static knurl_result from_mesh(knurl_heap *heap, const knurl_shape_desc *d, knurl
     }
     shape->coordinates = choose_coordinates(d, &desc, &shape->has_flat_uvs);
     const int is_projected = !d->axis && !desc.uvs && !desc.tangents;
-    shape->why = "the full model was requested (KNURL_FULL_MESHES)";
+    shape->why = "the full model was requested";
     const int curves = knurl_mesh_curves(&desc);
     if (curves) {
         shape->why = "its normals describe a curved surface";

@@ -139,7 +139,7 @@ knurl_result knurl_device_get_status(const knurl_device *device, knurl_device_st
     knurl_device_status made;
     knurl_device_status_init(&made, sizeof made);
     made.lost = knurl_load_acquire(&device->lost);
-    made.halted = knurl_device_is_halted(device);
+    made.halted = knurl_port_is_halted(device);
     made.buttons = knurl_load_relaxed(&device->buttons);
     knurl_seqlock_read(&device->orientation.sequence, device->orientation.words, made.orientation,
                        sizeof made.orientation);
@@ -203,6 +203,7 @@ knurl_result knurl_device_begin(knurl_device *device, double update_rate_hz) {
         if (device->motor_check.is_on) {
             knurl_motor_check_start(&device->motor_check, device->period);
         }
+        knurl_port_release_halt(device);
     }
     return result;
 }

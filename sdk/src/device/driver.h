@@ -63,7 +63,7 @@ typedef struct knurl_position_check {
 #define KNURL_DEVICE_THREAD 2u
 #define KNURL_DEVICE_CLOSED 4u
 
-/* Bits of knurl_device.halted: until knurl_device_release_halt(); closed; a motor runs backwards, until closed. */
+/* Bits of knurl_device.halted: until knurl_port_release_halt(); closed; a motor runs backwards, until closed. */
 #define KNURL_HALTED           1u
 #define KNURL_HALTED_FOR_GOOD  2u
 #define KNURL_HALTED_BACKWARDS 4u

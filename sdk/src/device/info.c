@@ -30,7 +30,6 @@ static const knurl_field fields[] = {
     FIELD(viscous, KNURL_RANGE_VISCOUS, 0),
     FIELD(coulomb, KNURL_RANGE_COULOMB, 0),
     FIELD(max_stiffness, KNURL_RANGE_STIFFNESS, KNURL_OR_INFINITY),
-    FIELD(max_damping, KNURL_RANGE_DAMPING, KNURL_OR_INFINITY),
     FIELD(native_rate, KNURL_RANGE_NATIVE_RATE, KNURL_OR_ZERO),
 };
 
@@ -50,7 +49,7 @@ knurl_result knurl_device_ask(const knurl_device *device, knurl_device_info *inf
     char type[64];
     knurl_device_info made;
     knurl_device_info_init(&made, sizeof made);
-    made.continuous_force = made.max_stiffness = made.max_damping = INFINITY;
+    made.continuous_force = made.max_stiffness = INFINITY;
     made.heat_time = 60.0;
     device->driver->get_info(device, &made);
     made.name[sizeof made.name - 1] = '\0';

@@ -24,7 +24,13 @@ void knurl_device_enter_thread(knurl_device *device);
 /* 1 if its owner has closed it. [any thread] */
 int knurl_device_is_closed(const knurl_device *device);
 
-/* 1 unless a halt is set that knurl_device_release_halt() cannot end. [any thread] */
+/* 1 while halted; 0 for an invalid handle. [any thread] */
+uint32_t knurl_port_is_halted(const knurl_device *device);
+
+/* Ends knurl_device_halt(). [any thread] */
+void knurl_port_release_halt(knurl_device *device);
+
+/* 1 unless a halt is set that knurl_port_release_halt() cannot end. [any thread] */
 int knurl_device_may_resume(const knurl_device *device);
 
 /* knurl_device_start() for the loop that has claimed the device. */

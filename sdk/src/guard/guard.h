@@ -8,6 +8,9 @@
 #include "guard/bounds.h"
 #include "guard/passivity.h"
 
+/* m/s in device metres: the fastest growth of a depth under the entry ramp. */
+#define KNURL_ENTRY_SPEED_MAX 0.5
+
 /* Of one HIP. */
 typedef struct knurl_guard {
     double entry;  /* m that a depth may grow in a tick */

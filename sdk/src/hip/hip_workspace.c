@@ -7,8 +7,8 @@
 #include <string.h>
 
 /* s: shortest time for a change of scale by a factor of e. A HIP whose device is 0.1 m off its origin then moves, in
- * device metres, at KNURL_ENTRY_SPEED_MAX, at which the entry ramp lets a depth grow. */
-#define ZOOM_TIME (0.1 / KNURL_ENTRY_SPEED_MAX)
+ * device metres, at 0.5 m/s, the fastest growth of a depth under the entry ramp. */
+#define ZOOM_TIME 0.2
 
 static double scale_at(const knurl_zoom *zoom, double time) {
     if (time >= zoom->end_time) {

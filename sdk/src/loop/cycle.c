@@ -56,7 +56,7 @@ static int ramp_down(knurl_loop *loop) {
     double force[3];
     knurl_device_sample sample;
     const knurl_result result = knurl_device_read(loop->shared.desc.device, &sample);
-    gain = result || knurl_device_is_halted(loop->shared.desc.device) ? 0.0 : gain;
+    gain = result || knurl_port_is_halted(loop->shared.desc.device) ? 0.0 : gain;
     tell_force(loop, gain, force);
     if (result || knurl_device_write(loop->shared.desc.device, force)) {
         loop->haptic.ramp_step = steps; /* the device does not answer: skip the ramp */
@@ -88,7 +88,7 @@ void knurl_loop_end(knurl_loop *loop, int32_t state) {
  * the device or the watchdog has halted meanwhile, and reported it. */
 static void zero_after_gap(knurl_loop *loop, int64_t late) {
     knurl_device *device = loop->shared.desc.device;
-    if (late > GAP_NS && !loop->haptic.was_halted && !knurl_device_is_halted(device) && !knurl_port_is_lost(device)) {
+    if (late > GAP_NS && !loop->haptic.was_halted && !knurl_port_is_halted(device) && !knurl_port_is_lost(device)) {
         knurl_device_halt(device);
         knurl_port_report(device, KNURL_FAULT_GAP, 1e-9 * (double)late);
     }

@@ -37,7 +37,7 @@ void knurl_loop_pass_time(knurl_loop *loop, int64_t now) {
     if (missed < 1.0) {
         return;
     }
-    const int halted = knurl_device_is_halted(loop->shared.desc.device) != 0;
+    const int halted = knurl_port_is_halted(loop->shared.desc.device) != 0;
     const double force2 = halted ? 0.0 : vec3_dot(loop->haptic.force, loop->haptic.force);
     knurl_heat_hold(&loop->haptic.last->heat, force2, missed);
     knurl_loop_tell_heat(loop);

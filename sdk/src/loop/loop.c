@@ -148,7 +148,6 @@ knurl_result knurl_loop_create(const knurl_loop_desc *desc, knurl_loop **loop) {
         release(&d);
         return result;
     }
-    knurl_device_release_halt(d.device);
     *loop = made;
     return KNURL_OK;
 }

@@ -49,7 +49,7 @@ static double gain_step(const knurl_loop *loop) {
  * an older one. */
 static double next_gain(knurl_loop *loop, int paused) {
     const double step = gain_step(loop);
-    loop->haptic.was_halted = knurl_device_is_halted(loop->shared.desc.device) != 0;
+    loop->haptic.was_halted = knurl_port_is_halted(loop->shared.desc.device) != 0;
     const int was_down = loop->haptic.was_halted || !loop->haptic.wanted;
     double gain = loop->haptic.was_halted || (paused && loop->shared.ticks == 0) ? 0.0 : loop->haptic.gain;
     loop->haptic.wanted = is_game_alive(loop, paused) && !paused;
@@ -146,7 +146,7 @@ int knurl_loop_tick(knurl_loop *loop) {
     const int64_t after = loop->shared.clock.now_ns(loop->shared.clock.user);
     result = knurl_device_write(loop->shared.desc.device, loop->haptic.force);
     if (loop->haptic.was_halted && result == KNURL_OK) {
-        knurl_device_release_halt(loop->shared.desc.device);
+        knurl_port_release_halt(loop->shared.desc.device);
     }
     knurl_loop_tell_heat(loop);
     knurl_histogram_add(&loop->shared.tick_ns, after - before);

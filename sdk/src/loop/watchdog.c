@@ -27,7 +27,7 @@ static void watch(knurl_loop *loop, watchdog *k, int64_t now) {
         k->seen = cycles;
         k->seen_at = now;
     } else if (limit > 0 && !knurl_port_is_lost(device) && now - k->seen_at > limit && knurl_loop_is_running(loop) &&
-               !knurl_device_is_halted(device)) {
+               !knurl_port_is_halted(device)) {
         knurl_device_halt(device);
         knurl_port_report(device, KNURL_FAULT_WATCHDOG, 1e-9 * (double)(now - k->seen_at));
         knurl_count_up(&loop->shared.watchdog_trips);

@@ -4,6 +4,10 @@
 
 #include <knurl/motion.h>
 
+/* FOAW's widest window in samples, 15 ms at 1 kHz, a common choice; and the most ticks between its samples. */
+#define KNURL_FOAW_WINDOW     15
+#define KNURL_FOAW_STRIDE_MAX 10
+
 typedef struct knurl_velocity_state {
     double history[KNURL_FOAW_STRIDE_MAX][32][4]; /* FOAW: a ring of 16 rows per tick of the stride; rows as in `held`,
                                                      the newest in row `newest`, older ones after it. Each row is stored

@@ -42,7 +42,6 @@ static knurl_result replace(knurl_scene *scene, knurl_surface_id surface, knurl_
     }
     made->record->motion.jumps = old->record->motion.jumps + 1;
     made->moved = 1;
-    made->user_data = old->user_data;
     knurl_surfaces_replace(&scene->surfaces, old, made);
     knurl_broad_phase_replace(&scene->broad_phase, old, made);
     return KNURL_OK;

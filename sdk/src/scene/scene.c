@@ -24,8 +24,8 @@ static knurl_result check_scene_desc(const knurl_scene_desc *d) {
     if (d->allocator && (!d->allocator->allocate || !d->allocator->release)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "knurl_scene_desc.allocator: expected both functions, found null");
     }
-    if (d->full_model & ~(uint32_t)KNURL_FULL_ALL) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "knurl_scene_desc.full_model: expected KNURL_FULL_ bits, found %#x",
+    if (d->full_model > 1) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "knurl_scene_desc.full_model: expected 0 or 1, found %u",
                           (unsigned)d->full_model);
     }
     return KNURL_OK;
@@ -76,7 +76,7 @@ knurl_result knurl_scene_create(const knurl_scene_desc *desc, knurl_scene **scen
     }
     made->lock = &made->mutexes[0];
     made->heap.lock = &made->mutexes[1];
-    made->full_model = d.full_model;
+    made->full_model = d.full_model ? KNURL_FULL_ALL : 0;
     made->surfaces.heap = &made->heap;
     made->surfaces.limit = d.max_surfaces;
     made->surfaces.tag = next_tag();

@@ -1,4 +1,4 @@
-/* Queries for games: poses of surfaces, the closest point, ray casts, all contacts of a HIP.
+/* Queries for games: ids, the closest point, ray casts, all contacts of a HIP.
  * SPDX-License-Identifier: MIT */
 #include "scene/scene.h"
 
@@ -8,35 +8,6 @@
 
 #include <string.h>
 
-/* The pose of a surface's own frame now; records hold that of its shape's frame. */
-static void find_pose(const knurl_scene *scene, const knurl_surface_data *surface, knurl_pose *pose) {
-    double turned[3];
-    knurl_pose shape;
-    knurl_motion_at(&surface->record->motion, knurl_scene_time(scene), &shape);
-    for (int row = 0; row < 3; row++) {
-        mat3_mul(surface->local.rotation, shape.rotation + 3 * (ptrdiff_t)row, pose->rotation + 3 * (ptrdiff_t)row);
-    }
-    mat3_mul(pose->rotation, surface->local.position, turned);
-    vec3_sub(shape.position, turned, pose->position);
-}
-
-knurl_result knurl_scene_get_transform(const knurl_scene *scene, knurl_surface_id surface, double position[3],
-                                       double rotation[4]) {
-    if (KNURL_IS_NULL(position) || KNURL_IS_NULL(rotation)) {
-        return KNURL_ERROR_ARGUMENT;
-    }
-    knurl_pose pose;
-    knurl_surface_data *data;
-    const knurl_result result = knurl_scene_lock_surface(scene, surface, &data);
-    if (!result) {
-        find_pose(scene, data, &pose);
-        knurl_scene_unlock(scene);
-        vec3_copy(pose.position, position);
-        quat_from_matrix(pose.rotation, rotation);
-    }
-    return result;
-}
-
 uint32_t knurl_scene_has_surface(const knurl_scene *scene, knurl_surface_id surface) {
     if (KNURL_BAD_HANDLE(scene, SCENE)) {
         return 0;
@@ -45,29 +16,6 @@ uint32_t knurl_scene_has_surface(const knurl_scene *scene, knurl_surface_id surf
     const uint32_t is_there = knurl_surfaces_find(&scene->surfaces, surface) != NULL;
     knurl_scene_unlock(scene);
     return is_there;
-}
-
-knurl_result knurl_scene_set_user_data(knurl_scene *scene, knurl_surface_id surface, void *user_data) {
-    knurl_surface_data *data;
-    const knurl_result result = knurl_scene_lock_surface(scene, surface, &data);
-    if (!result) {
-        data->user_data = user_data;
-        knurl_scene_unlock(scene);
-    }
-    return result;
-}
-
-knurl_result knurl_scene_get_user_data(const knurl_scene *scene, knurl_surface_id surface, void **user_data) {
-    if (KNURL_IS_NULL(user_data)) {
-        return KNURL_ERROR_ARGUMENT;
-    }
-    knurl_surface_data *data;
-    const knurl_result result = knurl_scene_lock_surface(scene, surface, &data);
-    if (!result) {
-        *user_data = data->user_data;
-        knurl_scene_unlock(scene);
-    }
-    return result;
 }
 
 void knurl_surface_point_init(knurl_surface_point *point, uint32_t size) {

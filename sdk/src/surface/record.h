@@ -8,6 +8,14 @@
 
 #include <knurl/scene.h>
 
+/* Reductions to switch off: knurl_scene_desc.full_model does so with all, tests with one at a time. */
+enum {
+    KNURL_FULL_MESHES = 1,  /* flat meshes stay meshes, instead of planes with an outline */
+    KNURL_FULL_SEARCH = 2,  /* every tick tests all surfaces, instead of nearby ones */
+    KNURL_FULL_GRATING = 4, /* smooth surfaces run the grating stage, instead of skipping it */
+    KNURL_FULL_ALL = 7
+};
+
 /* Immutable once published: an edit publishes another one. */
 typedef struct knurl_record {
     knurl_retired retired;

@@ -5,7 +5,7 @@
 #include "contact/shape.h"
 #include "surface/record.h"
 
-/* Immutable once published, except `record`, `moved` and `user_data`. */
+/* Immutable once published, except `record` and `moved`. */
 typedef struct knurl_surface_data {
     knurl_retired retired;
     knurl_record *record; /* atomic: the current one */
@@ -20,7 +20,6 @@ typedef struct knurl_surface_data {
     double axis[3];   /* unit, surface's frame; 0: no axis */
     char *name;
     const char *given; /* "plane" or "mesh" */
-    void *user_data;   /* for edits: the caller's */
 } knurl_surface_data;
 
 /* A shape to be shared with another surface, with its frame and axis. */

@@ -2,6 +2,7 @@
 #define _DEFAULT_SOURCE 1 /* MAP_ANONYMOUS */
 #define _ISOC11_SOURCE  1 /* quick_exit() */
 
+#include "device/port.h"
 #include "exit_child.h"
 
 /* --- signals --- */
@@ -138,7 +139,7 @@ static void crash_in_an_exchange(int number) {
     install();
     wait_for_count(&m->device.reads, 3);
     while (knurl_load_acquire(&m->device.limp_since) > 0) { /* again where the machine made it too old */
-        knurl_device_release_halt(device);
+        knurl_port_release_halt(device);
         if (knurl_device_write(device, force)) {
             _exit(104);
         }

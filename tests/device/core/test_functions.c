@@ -50,10 +50,10 @@ TEST(halted_it_gets_no_force_until_the_halt_is_released) {
     SCOPED_DEVICE *device = home_open(&h, 0);
     const double force[3] = {1.0, 0.0, 0.0};
     knurl_device_halt(device);
-    assert_int_equal(knurl_device_is_halted(device), 1);
+    assert_int_equal(knurl_port_is_halted(device), 1);
     assert_int_equal(knurl_device_write(device, force), KNURL_OK);
     CHECK_SAME(h.motor[0], 0.0L);
-    knurl_device_release_halt(device);
+    knurl_port_release_halt(device);
     assert_int_equal(knurl_device_write(device, force), KNURL_OK);
     CHECK_SAME(h.motor[0], 1.0L);
 }
@@ -79,7 +79,7 @@ TEST(without_a_new_position_the_latest_holds_for_10_ms_and_then_the_device_is_si
         for (int k = 0; k < 100; k++) {
             assert_int_equal(knurl_device_read(device, &sample), KNURL_ERROR_DEVICE_NOT_READY);
             assert_memory_equal(&sample, &before, sizeof sample);
-            assert_int_equal(knurl_device_is_halted(device), 1);
+            assert_int_equal(knurl_port_is_halted(device), 1);
         }
         assert_int_equal(knurl_device_next_event(device, &event), 1);
         assert_int_equal(event.code, KNURL_FAULT_SILENT);
@@ -184,7 +184,7 @@ TEST(of_a_lost_device_nothing_is_asked_but_to_close) {
         assert_int_equal(knurl_device_read(device, &sample), KNURL_ERROR_DEVICE_LOST);
         assert_int_equal(knurl_device_write(device, force), KNURL_ERROR_DEVICE_LOST);
         assert_true(h.order == order);
-        assert_int_equal(knurl_device_is_halted(device), 1);
+        assert_int_equal(knurl_port_is_halted(device), 1);
         assert_int_equal(next_code(device, 0), blocking ? 0 : KNURL_FAULT_LOST); /* told once */
         assert_int_equal(next_code(device, 0), 0);
         knurl_device_close(device);

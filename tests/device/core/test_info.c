@@ -31,7 +31,6 @@ static const struct number {
     {NUMBER(viscous), 0.0, 1000.0, 0.5, 0, "0 to 1000 N s/m"},
     {NUMBER(coulomb), 0.0, 10.0, 0.3, 0, "0 to 10 N"},
     {NUMBER(max_stiffness), 1.0, 1e9, 1e3, ENDLESS, "INFINITY or 1 to 1000000000 N/m"},
-    {NUMBER(max_damping), 0.0, 1e4, 8.0, ENDLESS, "INFINITY or 0 to 10000 N s/m"},
     {NUMBER(native_rate), 1.0, 1e5, 1e3, ZERO, "0 or 1 to 100000 Hz"},
 };
 

@@ -86,7 +86,7 @@ TEST(a_force_that_nobody_renews_is_played_for_10_ms_and_then_zeroed) {
     assert_int_equal(wait_for_event(device, KNURL_FAULT_LATE, &event), 1);
     sleep_ns(5000000);
     assert_true(event.value >= 0.01);
-    assert_int_equal(knurl_device_is_halted(device), 1);
+    assert_int_equal(knurl_port_is_halted(device), 1);
     const int64_t limp = knurl_load_acquire(&h.limp_since);
     assert_true(limp - written > 10000000 && limp - written <= 10000000 + PERIOD_NS);
     assert_true(limp - event.time_ns <= PERIOD_NS);
@@ -106,7 +106,7 @@ TEST(no_force_is_no_force_however_old_it_is) {
     assert_int_equal(knurl_device_write(device, none), KNURL_OK);
     sleep_ns(40000000);
     assert_int_equal(next_code(device, 0), 0);
-    assert_int_equal(knurl_device_is_halted(device), 0);
+    assert_int_equal(knurl_port_is_halted(device), 0);
 }
 
 TEST(a_halt_reaches_the_motors_with_the_next_exchange) {
@@ -284,7 +284,7 @@ TEST(while_an_exchange_hangs_nobody_waits_and_the_reader_says_so_once) {
     }
     assert_in_range(not_ready, 88, 90); /* 100 reads but the 10 ms and two periods that the latest position holds */
     assert_int_equal(count_events(device, KNURL_FAULT_SILENT), 1);
-    assert_int_equal(knurl_device_is_halted(device), 1);
+    assert_int_equal(knurl_port_is_halted(device), 1);
     home_inject(&h, DOUBLE_WELL);
     wait_for_count(&h.reads, knurl_load_acquire(&h.reads) + 3);
     assert_int_equal(knurl_device_read(device, &sample), KNURL_OK);
@@ -360,7 +360,7 @@ TEST(after_a_reconnect_no_force_from_before_is_played) {
         home_inject(&h, DOUBLE_WELL);
         const uint64_t from = h.writes;
         assert_int_equal(knurl_device_reopen(device), KNURL_OK);
-        knurl_device_release_halt(device);
+        knurl_port_release_halt(device);
         wait_for_count(&h.writes, from + 4);
         for (uint64_t i = from; i < from + 4; i++) {
             CHECK_SAME(h.log[i].force[0], 0.0L);

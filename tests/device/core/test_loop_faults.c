@@ -221,7 +221,7 @@ TEST_WITH(at_the_end_the_last_that_is_written_is_no_force_however_it_comes_to_th
 static uint32_t halts; /* bit k: the device was halted when the force of tick k was written */
 
 static knurl_result write_and_see_halt(knurl_device *device, const double force[3]) {
-    halts |= knurl_device_is_halted(device) << (rig_of(device)->writes % 32);
+    halts |= knurl_port_is_halted(device) << (rig_of(device)->writes % 32);
     return rig_write(device, force);
 }
 
@@ -239,7 +239,7 @@ TEST_WITH(a_halt_lasts_until_the_force_that_begins_the_ramp_is_written, NULL, en
     knurl_device_halt(&r.device);
     assert_int_equal(knurl_loop_step(r.loop, 10), KNURL_OK);
     assert_int_equal(halts, 1u << 10);
-    assert_int_equal(knurl_device_is_halted(&r.device), 0);
+    assert_int_equal(knurl_port_is_halted(&r.device), 0);
     assert_int_equal(r.writes, 20);
     rig_destroy(&r);
 }

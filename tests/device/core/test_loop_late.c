@@ -180,7 +180,7 @@ TEST_WITH(without_a_ramp_the_first_force_after_a_gap_is_still_zero, NULL, end_ri
 
 static void stall(rig *self) {
     sleep_ns(150000000);
-    self->seen = knurl_device_is_halted(self->desc.device);
+    self->seen = knurl_port_is_halted(self->desc.device);
 }
 
 TEST_WITH(a_haptic_thread_that_stands_still_is_told_by_the_watchdog_and_resumes, NULL, end_rig) {

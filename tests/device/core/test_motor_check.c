@@ -4,6 +4,7 @@
 
 #include "device/fake/plant.h"
 #include "device/motor_check.h"
+#include "device/port.h"
 
 #include <knurl/device_functions.h>
 #include <knurl/fake.h>
@@ -117,8 +118,8 @@ TEST(a_backwards_motor_is_told_with_its_axis_and_gets_no_force_until_the_device_
     assert_int_equal(count, 1); /* and no "resumed" */
     assert_true(b.device.strongest <= 1.0 + 1e-12);
     assert_true(b.device.deepest < 0.025);
-    knurl_device_release_halt(b.outer);
-    assert_int_equal(knurl_device_is_halted(b.outer), 1);
+    knurl_port_release_halt(b.outer);
+    assert_int_equal(knurl_port_is_halted(b.outer), 1);
     assert_int_equal(knurl_loop_step(b.loop, 500), KNURL_OK);
     assert_true(b.device.sent[0] == 0.0 && b.device.sent[1] == 0.0 && b.device.sent[2] == 0.0);
     assert_string_equal(knurl_fault_name(KNURL_FAULT_BACKWARDS_Y), "backwards_y");

@@ -5,6 +5,7 @@
 
 #include "base/vec3.h"
 #include "device/link.h"
+#include "device/port.h"
 
 #include <knurl/loop.h>
 
@@ -29,7 +30,7 @@ static knurl_result read_at(knurl_device *device, double x, double y, double z) 
     if (result) {
         assert_int_equal(result, KNURL_ERROR_DEVICE_NOT_READY);
         assert_memory_equal(&sample, &before, sizeof sample);
-        assert_int_equal(knurl_device_is_halted(device), 1);
+        assert_int_equal(knurl_port_is_halted(device), 1);
         CHECK_SAME(h.motor[0], 0.0L);
     } else {
         CHECK_SAME(sample.position[0], (long double)x);
@@ -126,7 +127,7 @@ TEST(where_it_then_stays_for_20_ms_is_believed) {
         }
         assert_in_range(without, (int)(0.02 * rates[i]) - 1, (int)(0.02 * rates[i]) + 1);
         assert_int_equal(drain(device, &event), 1);
-        assert_int_equal(knurl_device_is_halted(device), 1); /* for the haptic thread to release, with a ramp */
+        assert_int_equal(knurl_port_is_halted(device), 1); /* for the haptic thread to release, with a ramp */
     }
 }
 

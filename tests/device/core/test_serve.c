@@ -3,6 +3,7 @@
 #include "home.h"
 
 #include "device/driver.h"
+#include "device/port.h"
 
 #include <knurl/loop.h>
 
@@ -222,7 +223,7 @@ TEST_WITH(a_device_with_a_servo_thread_runs_the_loop_on_it, NULL, end) {
     assert_int_equal(stats().ticks, 200);
     check_silence();
     CHECK_SAME(knurl_load_double(&s.motor), 0.0L);
-    assert_int_equal(knurl_device_is_halted(&s.device), 1);
+    assert_int_equal(knurl_port_is_halted(&s.device), 1);
     assert_in_range(s.ticks, 219, 222);
 }
 

@@ -6,6 +6,7 @@
 #include "base/atomic.h"
 #include "base/system.h"
 #include "device/driver.h"
+#include "device/port.h"
 
 #include <knurl/device.h>
 #include <knurl/loop.h>
@@ -30,7 +31,7 @@ static knurl_device *open_released(void) {
         fail_msg("%s", knurl_error_message());
     }
     (void)run(device, 30, none, &sample);
-    knurl_device_release_halt(device);
+    knurl_port_release_halt(device);
     return device;
 }
 

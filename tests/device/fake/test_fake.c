@@ -1,5 +1,6 @@
 /* The fake device as a device: its URI, information and errors, what it does with forces, halts and lost cables.
  * SPDX-License-Identifier: MIT */
+#include "device/port.h"
 #include "support/close.h"
 #include "support/fake.h"
 
@@ -216,17 +217,26 @@ TEST(a_force_that_is_not_finite_is_written_as_none) {
 TEST(while_halted_a_force_counts_nothing_until_it_is_released) {
     SCOPED_DEVICE *device = open_device(FREE "&delay=0");
     stand(device);
-    assert_int_equal(knurl_device_is_halted(device), 0);
+    assert_int_equal(knurl_port_is_halted(device), 0);
     knurl_device_halt(device);
     knurl_device_halt(device);
-    assert_int_equal(knurl_device_is_halted(device), 1);
+    assert_int_equal(knurl_port_is_halted(device), 1);
     for (int tick = 0; tick < 50; tick++) {
         CHECK_SAME(read_one(device).position[0], 0.0L);
         write_x(device, 1.0);
     }
-    knurl_device_release_halt(device);
-    assert_int_equal(knurl_device_is_halted(device), 0);
+    knurl_port_release_halt(device);
+    assert_int_equal(knurl_port_is_halted(device), 0);
     CHECK_SAME(read_one(device).position[0], 0.0L); /* what was written during the halt is not caught up with */
+    write_x(device, 1.0);
+    assert_true(read_one(device).position[0] > 0.0);
+}
+
+TEST(a_start_ends_a_halt) {
+    SCOPED_DEVICE *device = open_device(FREE "&delay=0");
+    knurl_device_halt(device);
+    assert_int_equal(knurl_device_start(device, 1000.0), KNURL_OK);
+    (void)read_one(device);
     write_x(device, 1.0);
     assert_true(read_one(device).position[0] > 0.0);
 }

@@ -91,7 +91,7 @@ static inline outcome run(knurl_device *device, int ms, const double force[3]) {
 static inline knurl_device *open_ready_with(const char *options) {
     knurl_device *device = open_with(options);
     for (int i = 0; i < 1000 && run(device, 1, no_force).good == 0; i++) {}
-    knurl_device_release_halt(device);
+    knurl_port_release_halt(device);
     return device;
 }
 

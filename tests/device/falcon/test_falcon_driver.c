@@ -146,7 +146,7 @@ TEST(an_unhomed_device_is_red_and_limp_until_it_is_homed) {
     o = run(device, 20, no_force);
     assert_int_equal(o.not_ready, 0);
     assert_int_equal(falcon_fake_look(&fake).flags, 2 + 1); /* green */
-    knurl_device_release_halt(device);
+    knurl_port_release_halt(device);
     (void)run(device, 20, force);
     assert_int_equal(falcon_fake_look(&fake).flags, 4 + 1);
     close_fake(device);
@@ -166,8 +166,8 @@ TEST(a_homing_that_is_lost_for_a_moment_does_not_end_in_the_full_force_at_once) 
     falcon_fake_inject(&fake, DOUBLE_WELL);
     (void)run(device, 5, force);
     assert_true(is_limp());
-    assert_true(knurl_device_is_halted(device)); /* for which a loop ramps */
-    knurl_device_release_halt(device);
+    assert_true(knurl_port_is_halted(device)); /* for which a loop ramps */
+    knurl_port_release_halt(device);
     (void)run(device, 5, force);
     CHECK_CLOSE(falcon_fake_look(&fake).force[0], 1.0, 0.02);
     close_fake(device);

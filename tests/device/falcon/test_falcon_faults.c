@@ -32,7 +32,7 @@ static void check_silence(int fault, int32_t and_reported) {
     falcon_fake_inject(&fake, fault);
     (void)run(device, 60, force);
     assert_true(is_limp());
-    assert_true(knurl_device_is_halted(device));
+    assert_true(knurl_port_is_halted(device));
     while (knurl_device_next_event(device, &event)) {
         silent += event.code == KNURL_FAULT_SILENT;
         reported += event.code == and_reported;
@@ -45,7 +45,7 @@ static void check_silence(int fault, int32_t and_reported) {
     (void)run(device, 100, no_force);
     const outcome o = run(device, 20, no_force);
     assert_int_equal(o.not_ready + o.lost, 0);
-    knurl_device_release_halt(device);
+    knurl_port_release_halt(device);
     (void)run(device, 20, force);
     assert_false(is_limp());
     close_fake(device);
@@ -159,7 +159,7 @@ TEST(encoders_that_no_hand_can_have_turned_are_no_position) {
     fake.sim.jump[0] = 0.5;
     knurl_system_mutex_unlock(&fake.lock);
     (void)run(device, 40, no_force);
-    assert_true(knurl_device_is_halted(device));
+    assert_true(knurl_port_is_halted(device));
     assert_true(events_of(device, KNURL_FAULT_NOT_FINITE, &others) <= 1);
     close_fake(device);
 }

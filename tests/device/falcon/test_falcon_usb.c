@@ -34,7 +34,7 @@ static int run(knurl_device *device, int ms, double stiffness, int *lost) {
         if (result == KNURL_OK) {
             good++;
             force[1] = fmax(0.0, -stiffness * sample.position[1]); /* a floor at y = 0 */
-            knurl_device_release_halt(device);
+            knurl_port_release_halt(device);
         }
         (void)knurl_device_write(device, result == KNURL_OK ? force : no_force);
         next += 1000000;

@@ -4,6 +4,7 @@
 #include "support/close.h"
 
 #include "base/system.h"
+#include "device/port.h"
 
 #include <knurl/device.h>
 #include <knurl/loop.h>
@@ -27,7 +28,7 @@ static knurl_device *open_released(const char *options) {
         fail_msg("%s", knurl_error_message());
     }
     (void)run(device, 30, none, &sample);
-    knurl_device_release_halt(device);
+    knurl_port_release_halt(device);
     return device;
 }
 
@@ -103,7 +104,7 @@ TEST(each_type_has_its_own_name_workspace_and_force_and_others_are_refused) {
         CHECK_CLOSE(info.workspace_max[1], cases[i].radius / sqrt(3.0), 1e-12);
         CHECK_SAME(info.max_force, cases[i].max_force);
         (void)run(device, 30, none, &sample);
-        knurl_device_release_halt(device);
+        knurl_port_release_halt(device);
         (void)run(device, 10, force, &sample);
         CHECK_CLOSE(inverse3_double_sim()->force[2], cases[i].max_force, 1e-12);
     }
@@ -150,7 +151,7 @@ TEST(of_two_devices_the_one_that_is_named_is_moved_and_read) {
     inverse3_double_sim()->has_second = 1;
     assert_int_equal(knurl_inverse3_open("049D", inverse3_double_service(), &device), KNURL_OK);
     (void)run(device, 30, none, &sample);
-    knurl_device_release_halt(device);
+    knurl_port_release_halt(device);
     assert_int_equal(run(device, 500, force, &sample), KNURL_OK);
     CHECK_CLOSE(sample.position[0], 0.0, 0.00002); /* the other one is at 0.05 */
     CHECK_SAME(inverse3_double_sim()->force[2], 1.0);
@@ -230,7 +231,7 @@ static void check_lost_and_had_back(void (*lose)(void), void (*mend)(void)) {
     (void)run(device, 50, force, &sample);
     lose();
     assert_int_equal(run(device, 20, force, &sample), KNURL_ERROR_DEVICE_LOST);
-    assert_int_equal(knurl_device_is_halted(device), 1);
+    assert_int_equal(knurl_port_is_halted(device), 1);
     assert_true(has_event(device, KNURL_FAULT_LOST));
     assert_int_equal(knurl_device_start(device, 1000.0), KNURL_ERROR_DEVICE_LOST);
     mend();

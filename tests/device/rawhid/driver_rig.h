@@ -7,6 +7,7 @@
 #include "support/double.h"
 
 #include "base/vec3.h"
+#include "device/port.h"
 #include "device/rawhid/choose.h"
 #include "device/rawhid/fake_hid.h"
 #include "device/rawhid/geometry.h"
@@ -125,7 +126,7 @@ static inline void hold(double seconds, const double force[3]) {
     const int64_t until = knurl_system_now_ns() + (int64_t)(seconds * 1e9);
     while (knurl_system_now_ns() < until) {
         (void)knurl_device_read(device, &sample);
-        knurl_device_release_halt(device);
+        knurl_port_release_halt(device);
         (void)knurl_device_write(device, force);
         sleep_s(0.001);
     }
@@ -160,7 +161,7 @@ static inline void check_zeroed(int fault, int32_t code) {
     hold(0.05, force);
     fake_hid_inject(&hid, fault);
     assert_true(tick_until(KNURL_ERROR_DEVICE_NOT_READY, force, 5.0, &sample));
-    assert_int_equal(knurl_device_is_halted(device), 1);
+    assert_int_equal(knurl_port_is_halted(device), 1);
     wait_until_limp();
     wait_for_event(code);
 }

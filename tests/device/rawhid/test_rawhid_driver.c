@@ -109,7 +109,6 @@ TEST_WITH(what_it_is_is_told, set_up, tear_down) {
     assert_string_equal(info.name, "WoodenHaptics v2015");
     CHECK_SAME(info.max_force, 3.0); /* what 2 A give in every direction in the middle: 3.2 N, rounded down */
     CHECK_SAME(info.max_stiffness, 1000.0);
-    CHECK_SAME(info.max_damping, 8.0);
     CHECK_SAME(info.native_rate, 1000.0);
     CHECK_SAME(info.delay, 2.0);
     CHECK_CLOSE(info.resolution, 0.000101, 1e-6);

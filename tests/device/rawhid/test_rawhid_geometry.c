@@ -64,7 +64,6 @@ TEST(the_defaults_are_woodenhaptics_v2015) {
     CHECK_SAME(g.home[2], 6000.0);
     CHECK_SAME(g.max_force, 3.0);
     CHECK_SAME(g.max_stiffness, 1000.0);
-    CHECK_SAME(g.max_damping, 8.0);
     CHECK_SAME(g.home_on_open, 0.0);
 }
 

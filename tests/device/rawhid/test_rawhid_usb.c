@@ -54,7 +54,7 @@ static void hold(knurl_device *device, const double force[3], double seconds) {
     const int64_t until = knurl_system_now_ns() + (int64_t)(seconds * 1e9);
     while (knurl_system_now_ns() < until) {
         (void)knurl_device_read(device, &sample);
-        knurl_device_release_halt(device);
+        knurl_port_release_halt(device);
         (void)knurl_device_write(device, force);
         sleep_s(0.001);
     }

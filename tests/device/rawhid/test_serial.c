@@ -29,7 +29,7 @@ static knurl_device *open_released(void) {
         fail_msg("%s", knurl_error_message());
     }
     (void)run(device, 30, no_force, &sample);
-    knurl_device_release_halt(device);
+    knurl_port_release_halt(device);
     return device;
 }
 

@@ -337,7 +337,7 @@ static uint32_t play_echo(void *argument) {
         for (int axis = 0; axis < 3; axis++) {
             force[axis] = -500.0 * sample.position[axis]; /* up to infinity */
         }
-        knurl_device_release_halt(e->device);
+        knurl_port_release_halt(e->device);
         (void)knurl_device_write(e->device, force);
     }
     return 1;

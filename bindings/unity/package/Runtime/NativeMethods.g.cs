@@ -278,7 +278,6 @@ namespace Knurl
         public uint is_offline;
         public double update_rate_hz;
         public double sample_rate_hz;
-        public double full_scale;
         public double latency_s;
     }
 
@@ -299,7 +298,6 @@ namespace Knurl
         public double viscous;
         public double coulomb;
         public double max_stiffness;
-        public double max_damping;
         public double native_rate;
     }
 
@@ -666,7 +664,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "df4a343f7174148f";
+        internal const string Interface = "7f5432b609e9523e";
 
         internal const string Version = "0.3.0";
 
@@ -729,15 +727,12 @@ namespace Knurl
         internal const int KNURL_VERSION_PATCH = 0;
         internal const double KNURL_COORDINATE_MAX = 1000000000.0;
         internal const double KNURL_DEFAULT = -1.0;
-        internal const int KNURL_FOAW_WINDOW = 15;
-        internal const int KNURL_FOAW_STRIDE_MAX = 10;
         internal const double KNURL_TRACK_S = 0.02;
         internal const int KNURL_NO_EVENT = -1;
         internal const double KNURL_S2_DEADBAND = 0.001;
         internal const int KNURL_CONTACTS_MAX = 4;
         internal const double KNURL_UPDATE_RATE_MIN = 100.0;
         internal const double KNURL_UPDATE_RATE_MAX = 10000.0;
-        internal const double KNURL_ENTRY_SPEED_MAX = 0.5;
         internal const int KNURL_VISITS_MAX = 800;
         internal const int KNURL_PATH_ROWS_MAX = 65536;
         internal const double KNURL_FAR = 1000000.0;
@@ -772,10 +767,6 @@ namespace Knurl
         internal const int KNURL_METHOD_BANDLIMITED = 3;
         internal const int KNURL_COORDINATES_AUTO = 0;
         internal const int KNURL_COORDINATES_BOX = 1;
-        internal const int KNURL_FULL_MESHES = 1;
-        internal const int KNURL_FULL_SEARCH = 2;
-        internal const int KNURL_FULL_GRATING = 4;
-        internal const int KNURL_FULL_ALL = 7;
         internal const int KNURL_PROTECT_ENTRY = 1;
         internal const int KNURL_PROTECT_SLEW = 2;
         internal const int KNURL_PROTECT_HEAT = 4;
@@ -835,11 +826,11 @@ namespace Knurl
         internal const int KNURL_LIMIT_AMPLITUDE = 4;
         internal const int KNURL_LIMIT_HEAT = 8;
         internal const int KNURL_LIMIT_PERIOD = 16;
+        internal const int KNURL_LIMIT_STRETCH = 32;
         internal const int KNURL_LIMIT_FAR = 64;
         internal const int KNURL_LIMIT_VISITS = 128;
         internal const int KNURL_LIMIT_WINDING = 256;
         internal const int KNURL_LIMIT_NORMALS = 512;
-        internal const int KNURL_LIMIT_STRETCH = 32;
         internal const int KNURL_SESSION_CONTACT_STARTED = 1;
         internal const int KNURL_SESSION_CONTACT_ENDED = 2;
         internal const int KNURL_SESSION_BUTTON = 3;
@@ -976,16 +967,6 @@ namespace Knurl
             double* rotation, double seconds);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int knurl_scene_get_transform(knurl_scene* scene, ulong surface, double* position,
-            double* rotation);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int knurl_scene_set_user_data(knurl_scene* scene, ulong surface, IntPtr user_data);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int knurl_scene_get_user_data(knurl_scene* scene, ulong surface, IntPtr* user_data);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_scene_commit(knurl_scene* scene);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -1045,9 +1026,6 @@ namespace Knurl
         internal static extern void knurl_audio_fill(knurl_audio* audio, float* samples, uint count);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern double knurl_audio_get_latency(knurl_audio* audio);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void knurl_device_info_init(knurl_device_info* info, uint size);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -1094,12 +1072,6 @@ namespace Knurl
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void knurl_device_halt(knurl_device* device);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern void knurl_device_release_halt(knurl_device* device);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern uint knurl_device_is_halted(knurl_device* device);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_device_zero_on_exit(uint faults_recover);

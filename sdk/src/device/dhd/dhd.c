@@ -19,22 +19,19 @@
 #define NATIVE_RATE   1000.0 /* Hz; the library allows more, up to 4000 */
 #define STATUS_CYCLES 10u    /* exchanges per status query: too few for a hand to press a button twice */
 
-/* Properties by model. Force, stiffness, damping and workspace radius: CHAI3D's cDeltaDevices; lambdas and the other
+/* Properties by model. Force, stiffness and workspace radius: CHAI3D's cDeltaDevices; lambdas and the other
  * sigmas: as a sigma.7. Continuous forces are not published: a third of the peak. */
 static const struct {
     int type;
-    double max_force, max_stiffness, max_damping, radius;
+    double max_force, max_stiffness, radius;
 } models[] = {
-    {DHD_OMEGA, 12.0, 5000.0, 30.0, 0.075},  {DHD_OMEGA3, 12.0, 5000.0, 30.0, 0.075},
-    {DHD_OMEGA6, 12.0, 5000.0, 30.0, 0.075}, {DHD_OMEGA6_LEFT, 12.0, 5000.0, 30.0, 0.075},
-    {DHD_OMEGA7, 12.0, 5000.0, 30.0, 0.075}, {DHD_OMEGA7_LEFT, 12.0, 5000.0, 30.0, 0.075},
-    {DHD_DELTA3, 20.0, 5000.0, 30.0, 0.15},  {DHD_DELTA6, 20.0, 5000.0, 30.0, 0.15},
-    {DHD_SIGMA7, 12.0, 4000.0, 30.0, 0.09},  {DHD_SIGMA7_LEFT, 12.0, 4000.0, 30.0, 0.09},
-    {DHD_SIGMA6, 12.0, 4000.0, 30.0, 0.09},  {DHD_SIGMA6_LEFT, 12.0, 4000.0, 30.0, 0.09},
-    {DHD_SIGMA3, 12.0, 4000.0, 30.0, 0.09},  {DHD_LAMBDA3, 12.0, 4000.0, 30.0, 0.09},
-    {DHD_LAMBDA6, 12.0, 4000.0, 30.0, 0.09}, {DHD_LAMBDA6_LEFT, 12.0, 4000.0, 30.0, 0.09},
-    {DHD_LAMBDA7, 12.0, 4000.0, 30.0, 0.09}, {DHD_LAMBDA7_LEFT, 12.0, 4000.0, 30.0, 0.09},
-    {DHD_FALCON, 8.0, 3000.0, 20.0, 0.04}, /* also the weakest: used if the type is unknown */
+    {DHD_OMEGA, 12.0, 5000.0, 0.075},       {DHD_OMEGA3, 12.0, 5000.0, 0.075}, {DHD_OMEGA6, 12.0, 5000.0, 0.075},
+    {DHD_OMEGA6_LEFT, 12.0, 5000.0, 0.075}, {DHD_OMEGA7, 12.0, 5000.0, 0.075}, {DHD_OMEGA7_LEFT, 12.0, 5000.0, 0.075},
+    {DHD_DELTA3, 20.0, 5000.0, 0.15},       {DHD_DELTA6, 20.0, 5000.0, 0.15},  {DHD_SIGMA7, 12.0, 4000.0, 0.09},
+    {DHD_SIGMA7_LEFT, 12.0, 4000.0, 0.09},  {DHD_SIGMA6, 12.0, 4000.0, 0.09},  {DHD_SIGMA6_LEFT, 12.0, 4000.0, 0.09},
+    {DHD_SIGMA3, 12.0, 4000.0, 0.09},       {DHD_LAMBDA3, 12.0, 4000.0, 0.09}, {DHD_LAMBDA6, 12.0, 4000.0, 0.09},
+    {DHD_LAMBDA6_LEFT, 12.0, 4000.0, 0.09}, {DHD_LAMBDA7, 12.0, 4000.0, 0.09}, {DHD_LAMBDA7_LEFT, 12.0, 4000.0, 0.09},
+    {DHD_FALCON, 8.0, 3000.0, 0.04}, /* also the weakest: used if the type is unknown */
 };
 
 #define MODEL_COUNT (sizeof models / sizeof *models)
@@ -300,7 +297,6 @@ static void dhd_info(const knurl_device *device, knurl_device_info *info) {
     info->resolution = 0.00001; /* assumed */
     info->max_force = device->max_force;
     info->max_stiffness = models[d->model].max_stiffness;
-    info->max_damping = models[d->model].max_damping;
     info->continuous_force = device->max_force / 3.0; /* assumed */
     info->heat_time = 60.0;                           /* assumed */
     info->mass = 0.25;                                /* assumed */

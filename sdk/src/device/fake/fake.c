@@ -89,7 +89,6 @@ static void fake_info(const knurl_device *device, knurl_device_info *info) {
     info->viscous = s->viscous;
     info->coulomb = s->coulomb;
     info->max_stiffness = s->max_stiffness > 0.0 ? s->max_stiffness : INFINITY;
-    info->max_damping = INFINITY;
 }
 
 static knurl_result fake_start(knurl_device *device, double update_rate_hz) {

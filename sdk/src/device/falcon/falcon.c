@@ -182,7 +182,6 @@ static void falcon_info(const knurl_device *device, knurl_device_info *info) {
     info->viscous = 1.5;          /* assumed */
     info->coulomb = 0.5;          /* assumed */
     info->max_stiffness = 3000.0; /* CHAI3D */
-    info->max_damping = 20.0;     /* CHAI3D */
     info->native_rate = NATIVE_RATE;
 }
 

@@ -347,7 +347,6 @@ static void inverse3_info(const knurl_device *device, knurl_device_info *info) {
     info->resolution = 0.00001; /* data sheet of the Inverse3 */
     info->max_force = device->max_force;
     info->max_stiffness = models[d->model].max_stiffness;
-    info->max_damping = 5.0; /* assumed */
     info->continuous_force = models[d->model].continuous_force;
     info->heat_time = 60.0; /* assumed */
     info->mass = 0.2;       /* assumed */

@@ -68,7 +68,6 @@
     X(continuous_force, continuous_force, 1.7, KNURL_RANGE_FORCE, REAL)                                                \
     X(heat_time, heat_time, 60.0, KNURL_RANGE_HEAT_TIME, REAL)                                                         \
     X(max_stiffness, max_stiffness, 1000.0, KNURL_RANGE_STIFFNESS, REAL)                                               \
-    X(max_damping, max_damping, 8.0, KNURL_RANGE_DAMPING, REAL)                                                        \
     X(workspace_radius, workspace_radius, 0.100, KNURL_RAWHID_RADIUS, REAL)                                            \
     X(mass, mass, 0.2, KNURL_RANGE_MASS, REAL)                                                                         \
     X(viscous, viscous, 0.5, KNURL_RANGE_VISCOUS, REAL)                                                                \
@@ -79,7 +78,7 @@ typedef struct knurl_rawhid_geometry {
     double vendor, product, usage_page, usage, report_bytes;
     double length[3], origin[3], capstan[3], body[3], counts[3], sign[3], torque_constant[3], home[3];
     double home_on_open;
-    double max_current, max_force, continuous_force, heat_time, max_stiffness, max_damping;
+    double max_current, max_force, continuous_force, heat_time, max_stiffness;
     double workspace_radius, mass, viscous, coulomb;
 } knurl_rawhid_geometry;
 

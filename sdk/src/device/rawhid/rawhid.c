@@ -219,7 +219,6 @@ static void rawhid_info(const knurl_device *device, knurl_device_info *info) {
     info->resolution = knurl_rawhid_resolution(&r->arm); /* from its encoders and gears */
     info->max_force = g->max_force;                      /* as far as 2 A reach */
     info->max_stiffness = g->max_stiffness;              /* CHAI3D */
-    info->max_damping = g->max_damping;                  /* CHAI3D */
     info->continuous_force = g->continuous_force;        /* assumed: a third of CHAI3D's 5 N */
     info->heat_time = g->heat_time;                      /* assumed: as the Touch's */
     info->mass = g->mass;                                /* assumed */

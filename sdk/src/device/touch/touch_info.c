@@ -46,12 +46,11 @@ void knurl_touch_ask_info(touch *t) {
     info->continuous_force =                                      /* default: the sheet */
         ask(t, HD_CONTINUOUS_FORCE, 1.0, 0.01, info->max_force, fmin(0.88, info->max_force));
     info->max_stiffness = ask(t, HD_MAX_STIFFNESS, 1e3, 1.0, 1e5, 1020.0); /* default: the sheet's minimum, of z */
-    info->max_damping = ask(t, HD_MAX_DAMPING, 1e3, 1e-3, 1e3, INFINITY);
-    info->resolution = 0.055e-3; /* the paper, data sheet */
-    info->mass = 0.045;          /* data sheet: apparent, at the tip */
-    info->coulomb = 0.26;        /* data sheet: backdrive friction */
-    info->viscous = 0.5;         /* assumed, see the preset in fake_uri.h */
-    info->heat_time = 60.0;      /* assumed, see there */
-    info->delay = 1.0;           /* assumed: the force is played in the scheduler's next turn */
-    info->native_rate = 0.0;     /* one frame per tick */
+    info->resolution = 0.055e-3;                                           /* the paper, data sheet */
+    info->mass = 0.045;                                                    /* data sheet: apparent, at the tip */
+    info->coulomb = 0.26;                                                  /* data sheet: backdrive friction */
+    info->viscous = 0.5;                                                   /* assumed, see the preset in fake_uri.h */
+    info->heat_time = 60.0;                                                /* assumed, see there */
+    info->delay = 1.0;       /* assumed: the force is played in the scheduler's next turn */
+    info->native_rate = 0.0; /* one frame per tick */
 }
