@@ -1,7 +1,7 @@
 /* Devices' URIs, numbers, and lines for terminals. SPDX-License-Identifier: MIT */
 #include "fuzz.h"
 
-#include "device/number.h"
+#include "base/number.h"
 #include "device/uri.h"
 
 #include <knurl/device.h>

@@ -1,7 +1,7 @@
 /* Geometry files: what is in them, what is refused and in which words. SPDX-License-Identifier: MIT */
 #include "support/close.h"
 
-#include "device/number.h"
+#include "base/number.h"
 #include "device/rawhid/geometry.h"
 
 #include <locale.h>

@@ -7,7 +7,7 @@
 #include "device/dynlib.h"
 #include "device/link.h"
 #include "device/listings.h"
-#include "device/number.h"
+#include "base/number.h"
 #include "device/quaternion.h"
 #include "device/uri.h"
 

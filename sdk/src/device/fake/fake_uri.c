@@ -1,7 +1,7 @@
 /* Parses the keys of a fake URI. SPDX-License-Identifier: MIT */
 #include "device/fake/fake_uri.h"
 
-#include "device/number.h"
+#include "base/number.h"
 
 #include <string.h>
 

@@ -6,7 +6,7 @@
 #include "device/drivers.h"
 #include "device/falcon/firmware.h"
 #include "device/falcon/kinematics.h"
-#include "device/number.h"
+#include "base/number.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -7,7 +7,7 @@
 #include "device/drivers.h"
 #include "device/link.h"
 #include "device/listings.h"
-#include "device/number.h"
+#include "base/number.h"
 #include "device/uri.h"
 
 #include <math.h>

@@ -2,7 +2,7 @@
 #include "device/inverse3/message.h"
 
 #include "base/vec3.h"
-#include "device/number.h"
+#include "base/number.h"
 
 #include <stdio.h>
 #include <string.h>

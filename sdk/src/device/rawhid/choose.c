@@ -2,7 +2,7 @@
 #include "device/rawhid/choose.h"
 
 #include "device/listings.h"
-#include "device/number.h"
+#include "base/number.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 #include "device/rawhid/geometry.h"
 
 #include "base/regular_file.h"
-#include "device/number.h"
+#include "base/number.h"
 
 #include <errno.h>
 #include <math.h>

@@ -1,5 +1,5 @@
 /* Parses numbers. SPDX-License-Identifier: MIT */
-#include "device/number.h"
+#include "base/number.h"
 
 #include <stdint.h>
 
