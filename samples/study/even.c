@@ -1,4 +1,4 @@
-/* Study `even`: gains of the amplitude over f_t that make ridges equally strong, and the remaining differences.
+/* Study `even`: how even the gains of a device's model make the ridges, by what is felt of them as they are played.
  * SPDX-License-Identifier: MIT */
 #include "even.h"
 
@@ -11,8 +11,7 @@
 
 #define RATE  1000.0
 #define TICKS 2000
-#define FROM  20.0
-#define TO    310.0 /* Hz: the reference is the weakest level up to here; even up to 300 */
+#define FROM  20.0 /* Hz: of the first gain */
 
 double even_felt(double hz) {
     static double heights[TICKS];
@@ -31,34 +30,18 @@ double even_felt(double hz) {
     return steady_measure(heights, TICKS, RATE, hz, &found) ? found.felt_level : -1.0;
 }
 
-int even_find(knurl_gain gains[EVEN_GAINS]) {
-    double weakest = INFINITY;
-    for (int i = 0; i < EVEN_GAINS; i++) {
-        gains[i].hz = FROM * exp2(i / 16.0);
-        gains[i].gain = even_felt(gains[i].hz);
-        if (gains[i].gain < 0.0) {
-            return 1;
-        }
-        weakest = gains[i].hz <= TO ? fmin(weakest, gains[i].gain) : weakest;
-    }
-    for (int i = 0; i < EVEN_GAINS; i++) {
-        gains[i].gain = fmin(1.0, weakest / gains[i].gain);
-    }
-    return 0;
-}
-
-/* The same as knurl_scene_set_gains(). */
-static double gain_at(const knurl_gain gains[EVEN_GAINS], double hz) {
-    const double at = fmin(fmax(16.0 * log2(hz / FROM), 0.0), EVEN_GAINS - 1.001);
+/* As knurl_scene_set_gains() has it. */
+static double gain_at(const knurl_gain gains[KNURL_GAINS], double hz) {
+    const double at = fmin(fmax(16.0 * log2(hz / FROM), 0.0), KNURL_GAINS - 1.001);
     const int i = (int)at;
     return gains[i].gain + (at - i) * (gains[i + 1].gain - gains[i].gain);
 }
 
 static int write_rows(FILE *csv, json_writer *json, void *user) {
     double range[2][2] = {{INFINITY, 0.0}, {INFINITY, 0.0}};
-    knurl_gain gains[EVEN_GAINS];
+    knurl_gain gains[KNURL_GAINS];
     (void)user;
-    if (even_find(gains)) {
+    if (knurl_gains_from_plant(0.045, 0.5, RATE, gains)) { /* the device and hand of steady_felt_weight() */
         return 1;
     }
     json_string(json, "table", "even.csv");
@@ -77,8 +60,8 @@ static int write_rows(FILE *csv, json_writer *json, void *user) {
     }
     say(stdout, "felt from 25 to 300 Hz: within %.1f dB, with the gains within %.1f dB\n",
         20.0 * log10(range[0][1] / range[0][0]), 20.0 * log10(range[1][1] / range[1][0]));
-    for (int i = 0; i < EVEN_GAINS; i++) {
-        say(stdout, "{%.1f, %.3f}%s", gains[i].hz, gains[i].gain, i + 1 < EVEN_GAINS ? ", " : "\n");
+    for (int i = 0; i < KNURL_GAINS; i++) {
+        say(stdout, "{%.1f, %.3f}%s", gains[i].hz, gains[i].gain, i + 1 < KNURL_GAINS ? ", " : "\n");
     }
     return 0;
 }

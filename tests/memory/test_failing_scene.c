@@ -275,6 +275,7 @@ static knurl_result call_small_things(void) {
     knurl_grating grating;
     knurl_wave wave;
     knurl_vibration_event event;
+    knurl_gain gains[KNURL_GAINS];
     memset(&grating, 0, sizeof grating);
     knurl_workspace_set_identity(&workspace);
     (void)knurl_grating_check(&grating);
@@ -287,6 +288,8 @@ static knurl_result call_small_things(void) {
     (void)knurl_wave_prepare(KNURL_WAVE_T3, 0.01, 1e-4, 1000.0, &wave);
     (void)knurl_vibration_event_prepare(10.0, 1e-4, &event);
     (void)knurl_velocity_prepare(KNURL_VELOCITY_FOAW, 1e-5, 1000.0, &velocity);
+    (void)knurl_gains_from_plant(0.045, 0.5, 1000.0, gains);
+    (void)knurl_gains_from_response("", 0, gains);
     (void)knurl_result_string(KNURL_ERROR_MEMORY);
     (void)knurl_version_string();
     (void)knurl_version_number();

@@ -81,10 +81,30 @@ typedef struct knurl_gain {
 /** Even sensation, off by default: multiplies the amplitude of a HIP's ridges by a gain over f_t, so that a device and
  * a hand do not make them stronger at some speeds than at others. gains: `count` pairs, hz rising; straight in log hz
  * between two (to a sixteenth of an octave), constant beyond; copied. Null or count 0: off. It stays if the HIP is
- * configured again. `knurl study even` finds gains for a device (samples/study/README.md).
+ * configured again. knurl_gains_from_response() and knurl_gains_from_plant() find gains for a device.
  * Errors: KNURL_ERROR_ARGUMENT (hip, which pair), KNURL_ERROR_STATE (a loop has it). [game thread, while the caller's
  * own thread does not tick that HIP] */
 KNURL_API knurl_result knurl_scene_set_gains(knurl_scene *scene, uint32_t hip, const knurl_gain *gains, uint32_t count);
+
+/** How many gains the next two functions find: a sixteenth of an octave apart, from 20 to 494 Hz. */
+#define KNURL_GAINS 75
+
+/** Finds gains with which ridges are felt equally strongly from 25 to 300 Hz on a device whose response is known: as
+ * strongly as the weakest of them. Above, where they are weaker still, gains are 1. The strength is that of a square
+ * wave's harmonics, by the response and a fingertip's threshold (Verrillo 1963): a model of what is felt.
+ *
+ * file: the contents of a response file, `size` bytes, at most 64 KiB, as `knurl sweep` writes it: UTF-8, a first line
+ * "# knurl response 1", a header "frequency_hz,gain", then rows (2 to 1024) with rising frequencies from 25 Hz or less
+ * to 300 Hz or more. A gain is motion per force, in any unit. Lines that begin with '#' are comments. gains:
+ * room for KNURL_GAINS. Errors: KNURL_ERROR_ARGUMENT, KNURL_ERROR_FORMAT (the line, expected, found). [any thread,
+ * never from a tick] */
+KNURL_API knurl_result knurl_gains_from_response(const char *file, uint64_t size, knurl_gain *gains);
+
+/** The same gains on a model: a device of `mass` (kg) and `viscous` friction (N s/m), as knurl_device_info has them, in
+ * a hand of 700 N/m and 5 N s/m, which plays at `update_rate_hz`. For a device that was not measured; dry friction and
+ * joints that give are not in it. Errors: KNURL_ERROR_ARGUMENT (also if the mass is 0, not known). [any thread, never
+ * from a tick] */
+KNURL_API knurl_result knurl_gains_from_plant(double mass, double viscous, double update_rate_hz, knurl_gain *gains);
 
 /** The workspace map of a HIP, given or chosen by the scene at the commit; if it is moving, its target. Errors:
  * KNURL_ERROR_ARGUMENT, KNURL_ERROR_STATE (the scene is to choose it, and is not committed). [any thread but the

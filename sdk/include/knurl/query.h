@@ -143,6 +143,8 @@ typedef struct knurl_surface_check {
     char message[1024];     /**< a sentence for each exceeded limit: its name, the excess, the remedy; "" if there is
                                  none */
     double lowest_gain; /**< of knurl_scene_set_gains(): the weakest ridges have this share of the amplitude; 1: off */
+    double lowered_hz[2]; /**< Hz: the amplitude is lowered from here to here: the range in which
+                             knurl_gains_from_response() makes ridges even. 0, 0: nowhere */
 } knurl_surface_check;
 
 /** Fills in defaults; `size` is the caller's sizeof. [any thread] */

@@ -36,6 +36,13 @@ knurl_result knurl_even_init(const knurl_gain *gains, uint32_t count, knurl_even
     }
     even->on = 1;
     even->lowest = 1.0;
+    even->lowered_hz[0] = even->lowered_hz[1] = 0.0;
+    for (uint32_t i = 0; i < count; i++) {
+        if (gains[i].gain < 1.0) {
+            even->lowered_hz[0] = even->lowered_hz[1] > 0.0 ? even->lowered_hz[0] : gains[i].hz;
+            even->lowered_hz[1] = gains[i].hz;
+        }
+    }
     for (int i = 0; i < KNURL_EVEN_VALUES; i++) {
         const double gain = between(gains, count, ldexp(1.0 + i % 16 / 16.0, KNURL_EVEN_LOWEST + i / 16));
         even->gains[i] = gain;

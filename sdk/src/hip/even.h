@@ -12,6 +12,7 @@
 typedef struct knurl_even {
     int32_t on; /* 0: all gains are 1 */
     double lowest;
+    double lowered_hz[2]; /* the first and the last pair below 1 */
     double gains[KNURL_EVEN_VALUES];
 } knurl_even;
 

@@ -242,6 +242,8 @@ static void inspect(const knurl_scene *scene, const knurl_hip *hip, const knurl_
     check->stiffness_limit = knurl_bounds_stiffness(on.bounds, m->damping);
     check->amplitude = m->amplitude;
     check->lowest_gain = hip->even.on ? hip->even.lowest : 1.0;
+    check->lowered_hz[0] = hip->even.on ? hip->even.lowered_hz[0] : 0.0;
+    check->lowered_hz[1] = hip->even.on ? hip->even.lowered_hz[1] : 0.0;
     check->amplitude_limit = knurl_bounds_amplitude(on.bounds, wall.stiffness, m->method);
     check_wall(&on);
     check_place(&on, surface);
