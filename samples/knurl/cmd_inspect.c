@@ -97,6 +97,7 @@ static uint32_t print_scene(json_writer *json, const knurl_scene *scene, const k
     }
     json_close(json, ']');
     json_number(json, "skipped", skipped);
+    tool_print_even(json, scene);
     json_number(json, "bytes", (double)knurl_scene_get_bytes(scene));
     if (count == 0) {
         json_string(json, "hint", hint);
@@ -116,13 +117,18 @@ static int check(const char *path, const knurl_scene *scene, uint32_t warnings, 
                       path, knurl_scene_get_surface_count(scene), warnings, out_of_reach);
 }
 
-/* The fake device's values of a Touch. */
-static knurl_result measure_device(knurl_device_info *info) {
+/* Sets the scene up for a Touch, by the fake device's values. */
+static int measure_device(knurl_scene *scene, int even, const char *response, knurl_device_info *info) {
     knurl_device *device = NULL;
-    knurl_result result = knurl_device_open("fake", &device);
-    result = result ? result : knurl_device_get_info(device, info);
+    knurl_device_info_init(info, sizeof *info);
+    int code = knurl_device_open("fake", &device) || knurl_device_get_info(device, info)
+                   ? tool_library_error(TOOL_FAILURE, NULL)
+                   : TOOL_OK;
+    if (code == TOOL_OK && (even || response)) {
+        code = tool_even(scene, response, device, 1000.0);
+    }
     knurl_device_close(device);
-    return result;
+    return code;
 }
 
 int cmd_inspect(int argc, char **argv) {
@@ -130,11 +136,15 @@ int cmd_inspect(int argc, char **argv) {
     int pretty = 0;
     int full = 0;
     int checks = 0;
+    int even = 0;
     const char *limits = NULL;
+    const char *response = NULL;
     knurl_gltf_options budget;
     const tool_option options[] = {{"--pretty", TOOL_FLAG, &pretty, 0, 0, ""},
                                    {"--full-model", TOOL_FLAG, &full, 0, 0, ""},
                                    {"--check", TOOL_FLAG, &checks, 0, 0, ""},
+                                   {"--even", TOOL_FLAG, &even, 0, 0, ""},
+                                   {"--response", TOOL_TEXT, (void *)&response, 0, 0, ""},
                                    {"--budget", TOOL_TEXT, &limits, 0, 0, ""}};
     if (tool_parse(argc, argv, options, sizeof options / sizeof *options, &path) != TOOL_OK ||
         tool_parse_budget(limits, &budget) != TOOL_OK) {
@@ -149,11 +159,13 @@ int cmd_inspect(int argc, char **argv) {
     knurl_scene_desc_init(&desc, sizeof desc);
     desc.full_model = full != 0;
     knurl_device_info device;
-    knurl_device_info_init(&device, sizeof device);
-    if (knurl_scene_create(&desc, &scene) || tool_load(scene, path, &budget, &skipped) || knurl_scene_commit(scene) ||
-        measure_device(&device)) {
+    if (knurl_scene_create(&desc, &scene) || tool_load(scene, path, &budget, &skipped) || knurl_scene_commit(scene)) {
         knurl_scene_destroy(scene);
         return tool_library_error(TOOL_FAILURE, NULL);
+    }
+    if (measure_device(scene, even, response, &device) != TOOL_OK) {
+        knurl_scene_destroy(scene);
+        return TOOL_FAILURE;
     }
     json_writer json;
     json_start(&json, stdout, pretty);

@@ -17,10 +17,10 @@
 #include <unistd.h>
 
 typedef struct run_options {
-    const char *path, *device, *surface, *stroke, *trace, *method, *out, *limits, *wav;
+    const char *path, *device, *surface, *stroke, *trace, *method, *out, *limits, *wav, *response;
     knurl_gltf_options budget;
     double seconds, rate;
-    int fast, full_model, clamp, reconnect, pretty, view, exact;
+    int fast, full_model, clamp, reconnect, pretty, view, exact, even;
     int32_t stroke_id, method_id;
 } run_options;
 
@@ -58,12 +58,14 @@ static int read_options(int argc, char **argv, run_options *o) {
         {"--out", TOOL_TEXT, &o->out, 0, 0, ""},
         {"--budget", TOOL_TEXT, &o->limits, 0, 0, ""},
         {"--wav", TOOL_TEXT, &o->wav, 0, 0, ""},
+        {"--response", TOOL_TEXT, &o->response, 0, 0, ""},
         {"--seconds", TOOL_NUMBER, &o->seconds, 0.001, RUN_SECONDS_MAX, "s"},
         {"--rate", TOOL_NUMBER, &o->rate, KNURL_UPDATE_RATE_MIN, KNURL_UPDATE_RATE_MAX, "Hz"},
         {"--fast", TOOL_FLAG, &o->fast, 0, 0, ""},
         {"--exact", TOOL_FLAG, &o->exact, 0, 0, ""},
         {"--view", TOOL_FLAG, &o->view, 0, 0, ""},
         {"--clamp", TOOL_FLAG, &o->clamp, 0, 0, ""},
+        {"--even", TOOL_FLAG, &o->even, 0, 0, ""},
         {"--reconnect", TOOL_FLAG, &o->reconnect, 0, 0, ""},
         {"--full-model", TOOL_FLAG, &o->full_model, 0, 0, ""},
         {"--pretty", TOOL_FLAG, &o->pretty, 0, 0, ""}};
@@ -263,6 +265,10 @@ static int make_loop(run *r) {
     if (r->options.clamp && clamp(r->scene)) {
         return tool_library_error(TOOL_FAILURE, "run: --clamp");
     }
+    if ((r->options.even || r->options.response) &&
+        tool_even(r->scene, r->options.response, r->device, r->options.rate) != TOOL_OK) {
+        return TOOL_FAILURE;
+    }
     knurl_loop_desc_init(&desc, sizeof desc);
     desc.device = r->device;
     desc.scene = r->scene;
@@ -407,6 +413,7 @@ static void print_summary(const run *r, const knurl_loop_stats *stats) {
     json_number(&json, "visit_limit_ticks", (double)counts.visit_limit_ticks);
     json_number(&json, "heat", counts.heat);
     json_number(&json, "force_max_n", counts.force_max);
+    tool_print_even(&json, r->scene);
     faults_print(&r->faults, &json);
     print_percentiles(&json, "tick_ns", &stats->tick_ns, 1.0);
     print_percentiles(&json, "jitter_us", &stats->jitter_ns, 1000.0);

@@ -35,6 +35,9 @@ typedef struct help_command {
 #define BUDGET  {"--budget", "NAME=N,...", "limits of loading: surfaces, bytes, vertices, triangles, seconds"}
 #define PRETTY  {"--pretty", "", "JSON over several lines"}
 #define FULL    {"--full-model", "", "without reductions: flat meshes stay meshes, every tick tests all surfaces"}
+#define EVEN                                                                                                           \
+    {"--even", "", "ridges equally strong from 25 to 300 Hz, by a model of the device in a hand"},                     \
+        {"--response", "CSV", "the same, by a response that knurl sweep measured"}
 #define WAVE                                                                                                           \
     {"--method", "T1|T2|T3", "the temporal method"}, {"--period-ms", "P", "period, ms"},                               \
         {"--amplitude", "A", "half peak to peak; default 1"}, {"--rate", "HZ", "update rate; default 1000"}
@@ -46,11 +49,12 @@ static const help_command commands[] = {
      {PRETTY,
       FULL,
       BUDGET,
+      EVEN,
       {"--check", "", "exit with 3 if a surface exceeds a Touch's limits, is stretched, or is out of its reach"}},
      "JSON: surfaces [{name, shape, model, triangles, dropped_triangles, reversed_twins, turned_triangles, bytes, why,\n"
      "model_error, seam, touching_pairs, curved_triangles, bad_normals, bulge, in_reach, double_sided, coordinates, uneven,\n"
      "projection_seams, material, stretch,\n"
-     "stretch_y}], skipped, bytes, hint.",
+     "stretch_y}], skipped, even {lowest_gain, from_hz, to_hz}, bytes, hint.",
      NULL},
     {"tag",
      "FILE",
@@ -99,6 +103,7 @@ static const help_command commands[] = {
       FULL,
       BUDGET,
       {"--clamp", "", "limits walls and textures to what the device can do"},
+      EVEN,
       PRETTY},
      "CSV in (--trace): columns t, x, y, z by name, in any order; scene metres. Positions in an encoder's counts are\n"
      "recognised and felt through an estimator of velocity for counts; resolution_m in the JSON is 0 if they are exact.\n"
@@ -108,7 +113,7 @@ static const help_command commands[] = {
      "JSON: device, rate_hz, resolution_m, ticks, contact_s, events, metres, half_cycles_crossed,\n"
      "half_cycles_played, overruns, watchdogs, absences, force_limit_ticks, above_nyquist_ticks, non_finite_ticks,\n"
      "entry_ticks, slew_ticks, heat_ticks, passivity_ticks, squeezed_ticks, visit_limit_ticks, heat, force_max_n,\n"
-     "faults, tick_ns and jitter_us {p50, p99, max}.\n"
+     "even {lowest_gain, from_hz, to_hz}, faults, tick_ns and jitter_us {p50, p99, max}.\n"
      "Files are written completely or not at all, and never replace one that is read.\n"
      "Keys of --device fake:?key=value&key=value:\n",
      knurl_fake_keys},
@@ -157,6 +162,18 @@ static const help_command commands[] = {
      "find the gain of a Falcon with a known mass",
      {{"--mass", "KG", "that hangs from its grip, 0.05 to 0.4"}, {"--out", "FILE", "file to write the gain to"}},
      "JSON: gain, newtons. KNURL_FALCON_GAIN=FILE corrects the Falcon's forces.",
+     NULL},
+    {"sweep",
+     "",
+     "measure a device's response from 20 to 500 Hz, in a hand (two minutes)",
+     {{"--device", "URI", "fake (default), or as knurl run"},
+      {"--out", "CSV", "file to write the response to, for --response"},
+      {"--rate", "HZ", "update rate, 1000 to 10000; default 1000, which reaches 403 Hz"},
+      {"--fast", "", "fake only: as fast as the machine can"},
+      PRETTY},
+     "Sines along y, at most 1 N, one after the other. A fault, Ctrl-C, or a grip that moves by 30 mm ends it.\n"
+     "CSV out: a line '# knurl response 1', then frequency_hz,gain (m/N), as far as motions stand out from noise.\n"
+     "JSON: device, rate_hz, force_n, seconds, overruns, rows, to_hz.",
      NULL}};
 
 #define COMMAND_COUNT (sizeof commands / sizeof *commands)

@@ -8,6 +8,7 @@
 #include "out.h"
 #include "say.h"
 
+#include <knurl/device.h>
 #include <knurl/gltf.h>
 #include <knurl/query.h>
 
@@ -28,6 +29,15 @@ int tool_parse_budget(const char *text, knurl_gltf_options *budget);
 /* knurl_gltf_load_file(). Protects the files that were read from being overwritten, and shows progress on a terminal.
  */
 knurl_result tool_load(knurl_scene *scene, const char *path, const knurl_gltf_options *budget, uint32_t *skipped);
+
+/* --- even sensation (even.c) --- */
+
+/* --response FILE, or --even (path null): HIP 0's gains, by the file or by the device's mass and friction. TOOL_OK, or
+ * TOOL_FAILURE having said why. */
+int tool_even(knurl_scene *scene, const char *path, const knurl_device *device, double rate);
+
+/* "even": {"lowest_gain", "from_hz", "to_hz"} of HIP 0, if it has gains. */
+void tool_print_even(json_writer *json, const knurl_scene *scene);
 
 /* --- CSV input (csv_in.c) --- */
 
@@ -54,5 +64,6 @@ int cmd_scan(int argc, char **argv);
 int cmd_bench(int argc, char **argv);
 int cmd_devices(int argc, char **argv);
 int cmd_calibrate(int argc, char **argv);
+int cmd_sweep(int argc, char **argv);
 
 #endif

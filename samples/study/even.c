@@ -30,7 +30,7 @@ double even_felt(double hz) {
     return steady_measure(heights, TICKS, RATE, hz, &found) ? found.felt_level : -1.0;
 }
 
-/* As knurl_scene_set_gains() has it. */
+/* The same as knurl_scene_set_gains(). */
 static double gain_at(const knurl_gain gains[KNURL_GAINS], double hz) {
     const double at = fmin(fmax(16.0 * log2(hz / FROM), 0.0), KNURL_GAINS - 1.001);
     const int i = (int)at;
