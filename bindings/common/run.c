@@ -10,10 +10,10 @@ static knurl_result check(const knurl_session_desc *d) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "knurl_session_desc: expected one of %u bytes, found one of %u",
                           (unsigned)sizeof *d, (unsigned)d->struct_size);
     }
-    if (d->reconnect > 1 || d->clamp > 1) {
+    if (d->reconnect > 1 || d->clamp > 1 || d->even > 1) {
         return knurl_fail(KNURL_ERROR_ARGUMENT,
-                          "knurl_session_desc: expected reconnect and clamp of 0 or 1, found %u and %u",
-                          (unsigned)d->reconnect, (unsigned)d->clamp);
+                          "knurl_session_desc: expected reconnect, clamp and even of 0 or 1, found %u, %u and %u",
+                          (unsigned)d->reconnect, (unsigned)d->clamp, (unsigned)d->even);
     }
     if (!(d->update_rate_hz >= KNURL_UPDATE_RATE_MIN && d->update_rate_hz <= KNURL_UPDATE_RATE_MAX)) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "knurl_session_desc.update_rate_hz: expected %g to %g Hz, found %g Hz",
@@ -68,6 +68,20 @@ static knurl_result open_device(knurl_session *session, const char *device) {
     return result;
 }
 
+/* The gains of even sensation; off for a mouse and for other devices whose mass is not known. */
+static knurl_result set_gains(const knurl_session *session, const knurl_session_desc *desc) {
+    knurl_gain gains[KNURL_GAINS];
+    knurl_device_info info;
+    knurl_device_info_init(&info, sizeof info);
+    knurl_result result = knurl_device_get_info(session->device, &info);
+    const int is_on = desc->even && (desc->response || info.mass > 0.0);
+    if (!result && is_on) {
+        result = desc->response ? knurl_gains_from_response(desc->response, desc->response_size, gains)
+                                : knurl_gains_from_plant(info.mass, info.viscous, desc->update_rate_hz, gains);
+    }
+    return result ? result : knurl_scene_set_gains(session->scene, 0, gains, is_on ? KNURL_GAINS : 0);
+}
+
 knurl_result knurl_session_open(knurl_session *session, const knurl_session_desc *desc) {
     if (KNURL_BAD_HANDLE(session, SESSION) || KNURL_IS_NULL(desc)) {
         return KNURL_ERROR_ARGUMENT;
@@ -87,9 +101,14 @@ knurl_result knurl_session_open(knurl_session *session, const knurl_session_desc
     }
     (void)knurl_device_zero_on_exit(1); /* 1: C# recovers from SIGSEGV, for null references */
     result = result ? result : open_device(session, device);
-    if (!result) {
+    result = result ? result : set_gains(session, desc);
+    if (result) {
+        knurl_device_close(session->device);
+        session->device = NULL;
+        session->mouse = NULL;
+    } else {
         session->desc = *desc;
-        session->desc.device = session->desc.stroke = NULL; /* the caller's strings: already used */
+        session->desc.device = session->desc.stroke = session->desc.response = NULL; /* the caller's: already used */
         memcpy(session->way.position, desc->workspace.origin, sizeof session->way.position);
         session->is_fake = is_fake;
         session->stroke = stroke;

@@ -27,7 +27,9 @@ typedef struct knurl_session_desc {
     uint32_t struct_size;  /**< set by knurl_session_desc_init() */
     uint32_t reconnect;    /**< 1 (default): a lost device is reopened when it is back; 0: its loss ends the run */
     uint32_t clamp;        /**< 1 (default): stiffness and amplitude are limited to what the device can render */
-    uint32_t reserved;     /**< 0 */
+    uint32_t even;         /**< 1: even sensation: ridges as strong at any speed, by `response` or, without one, by the
+                                device's mass and friction (knurl_gains_from_plant()). A mouse, and a device whose mass is
+                                not known, do without. Default 0 */
     const char *device;    /**< UTF-8: a URI of knurl_device_open(), default "fake"; "auto": the first device that is
                                 connected; or "mouse": no hardware, the game moves the HIP by
                                 knurl_session_move_hip() */
@@ -37,6 +39,9 @@ typedef struct knurl_session_desc {
     double heartbeat_s;    /**< s without knurl_session_update() after which the force goes to zero; default 0.25;
                                 0: never */
     knurl_workspace workspace; /**< pose and scale of the device's workspace in the scene */
+    const char *response;      /**< `response_size` bytes of a response file (knurl_gains_from_response()); null
+                                    (default): none. Not used without `even` */
+    uint64_t response_size;
 } knurl_session_desc;
 
 /** State of a session's run, as of its last tick. Scene axes. All zeros while nothing runs. */
@@ -126,7 +131,7 @@ KNURL_API knurl_device *knurl_session_get_device(knurl_session *session);
 KNURL_API knurl_loop *knurl_session_get_loop(knurl_session *session);
 
 /** Opens the device. Errors: KNURL_ERROR_STATE (open already), KNURL_ERROR_ARGUMENT (which field), KNURL_ERROR_UNKNOWN
- * (stroke), and those of knurl_device_open(). [game thread] */
+ * (stroke), KNURL_ERROR_FORMAT (response), and those of knurl_device_open(). [game thread] */
 KNURL_API knurl_result knurl_session_open(knurl_session *session, const knurl_session_desc *desc);
 
 /** Commits the scene if it is not committed yet, sets up its HIP and the fake hand's stroke, and starts the haptic

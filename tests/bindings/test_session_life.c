@@ -72,7 +72,7 @@ TEST(the_defaults_are_a_fake_device_at_1_khz) {
     CHECK_SAME(desc.update_rate_hz, 1000.0);
     CHECK_SAME(desc.heartbeat_s, 0.25);
     CHECK_SAME(desc.workspace.scale, 1.0);
-    assert_true(desc.struct_size == sizeof desc && desc.reconnect == 1 && desc.clamp == 1 && desc.reserved == 0);
+    assert_true(desc.struct_size == sizeof desc && desc.reconnect == 1 && desc.clamp == 1 && desc.even == 0);
 }
 
 TEST(nothing_starts_that_is_closed) {
