@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "7f5432b609e9523e"
+#define KNURL_UNITY_INTERFACE "463987e9109118fd"
 
 /** Everything mirrored, where C# expects it: STRUCT(type, bytes), FIELD(type, field, its name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
@@ -351,7 +351,7 @@
     FIELD(knurl_surface_point, distance, "distance", 16, 8) \
     FIELD(knurl_surface_point, position, "position", 24, 24) \
     FIELD(knurl_surface_point, normal, "normal", 48, 24) \
-    STRUCT(knurl_surface_check, 1072) \
+    STRUCT(knurl_surface_check, 1088) \
     FIELD(knurl_surface_check, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_surface_check, exceeded, "exceeded", 4, 4) \
     FIELD(knurl_surface_check, stiffness, "stiffness", 8, 8) \
@@ -360,22 +360,25 @@
     FIELD(knurl_surface_check, amplitude_limit, "amplitude_limit", 32, 8) \
     FIELD(knurl_surface_check, message, "message", 40, 1024) \
     FIELD(knurl_surface_check, lowest_gain, "lowest_gain", 1064, 8) \
+    FIELD(knurl_surface_check, lowered_hz, "lowered_hz", 1072, 16) \
     STRUCT(knurl_stroke_report, 24) \
     FIELD(knurl_stroke_report, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_stroke_report, is_outside, "is_outside", 4, 4) \
     FIELD(knurl_stroke_report, follows, "follows", 8, 4) \
     FIELD(knurl_stroke_report, reserved, "reserved", 12, 4) \
     FIELD(knurl_stroke_report, length, "length", 16, 8) \
-    STRUCT(knurl_session_desc, 176) \
+    STRUCT(knurl_session_desc, 192) \
     FIELD(knurl_session_desc, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_session_desc, reconnect, "reconnect", 4, 4) \
     FIELD(knurl_session_desc, clamp, "clamp", 8, 4) \
-    FIELD(knurl_session_desc, reserved, "reserved", 12, 4) \
+    FIELD(knurl_session_desc, even, "even", 12, 4) \
     FIELD(knurl_session_desc, device, "device", 16, 8) \
     FIELD(knurl_session_desc, stroke, "stroke", 24, 8) \
     FIELD(knurl_session_desc, update_rate_hz, "update_rate_hz", 32, 8) \
     FIELD(knurl_session_desc, heartbeat_s, "heartbeat_s", 40, 8) \
     FIELD(knurl_session_desc, workspace, "workspace", 48, 128) \
+    FIELD(knurl_session_desc, response, "response", 176, 8) \
+    FIELD(knurl_session_desc, response_size, "response_size", 184, 8) \
     STRUCT(knurl_session_state, 224) \
     FIELD(knurl_session_state, hip, "hip", 0, 24) \
     FIELD(knurl_session_state, proxy, "proxy", 24, 24) \

@@ -520,6 +520,7 @@ namespace Knurl
         public double amplitude_limit;
         public fixed byte message[1024];
         public double lowest_gain;
+        public fixed double lowered_hz[2];
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -538,12 +539,14 @@ namespace Knurl
         public uint struct_size;
         public uint reconnect;
         public uint clamp;
-        public uint reserved;
+        public uint even;
         public byte* device;
         public byte* stroke;
         public double update_rate_hz;
         public double heartbeat_s;
         public knurl_workspace workspace;
+        public byte* response;
+        public ulong response_size;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -664,7 +667,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "7f5432b609e9523e";
+        internal const string Interface = "463987e9109118fd";
 
         internal const string Version = "0.3.0";
 
@@ -734,6 +737,7 @@ namespace Knurl
         internal const double KNURL_UPDATE_RATE_MIN = 100.0;
         internal const double KNURL_UPDATE_RATE_MAX = 10000.0;
         internal const int KNURL_VISITS_MAX = 800;
+        internal const int KNURL_GAINS = 75;
         internal const int KNURL_PATH_ROWS_MAX = 65536;
         internal const double KNURL_FAR = 1000000.0;
         internal const double KNURL_STRETCH_MAX = 2.0;
@@ -986,6 +990,13 @@ namespace Knurl
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_scene_set_gains(knurl_scene* scene, uint hip, knurl_gain* gains, uint count);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_gains_from_response(byte* file, ulong size, knurl_gain* gains);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_gains_from_plant(double mass, double viscous, double update_rate_hz,
+            knurl_gain* gains);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_scene_get_workspace(knurl_scene* scene, uint hip, knurl_workspace* workspace);
