@@ -6,12 +6,13 @@ from . import metrics
 from ._library import KnurlError, arrays_of, check, ffi, lib, version
 from .callbacks import Sample
 from .device import Device, Event, Listing, Loop, devices
+from .methods import add_method
 from .scene import Material, Scene, Surface
 from .signals import Grating, Velocity
 from .tagging import Tagged, tag, tags, untag
 from .ticks import Ticks, Verdict, as_ticks
 
 __all__ = ["Device", "Event", "Grating", "KnurlError", "Listing", "Loop", "Material", "Sample", "Scene", "Surface",
-           "Tagged", "Ticks", "Velocity", "Verdict", "arrays_of", "as_ticks", "check", "devices", "ffi", "lib", "metrics", "tag",
-           "tags", "untag", "version"]
+           "Tagged", "Ticks", "Velocity", "Verdict", "add_method", "arrays_of", "as_ticks", "check", "devices", "ffi", "lib", "metrics",
+           "tag", "tags", "untag", "version"]
 __version__ = version()

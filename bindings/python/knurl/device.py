@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from . import callbacks, metrics
 from ._library import Owner, check, described, ffi, fill, lib, open_objects, to_python
+from .methods import raise_error
 from .scene import Scene, Surface, _rows, _tuple_of
 from .ticks import OUTPUTS, Ticks, as_ticks, copy_fields, packed
 
@@ -306,6 +307,7 @@ class Loop(Owner):
     def _raise_error(self) -> None:
         if self._calls.error is not None:
             raise self._calls.error
+        raise_error()
 
     def __enter__(self) -> "Loop":
         self.start()

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from ._library import Owner, arrays_of, check, described, ffi, fill, lib, refuse, to_python
 from .callbacks import in_callback
+from .methods import raise_error
 from .ticks import OUTPUTS, Ticks, as_ticks, copy_fields, packed
 
 _INPUTS = arrays_of("knurl_tick_input")
@@ -40,7 +41,8 @@ def _method(name: Optional[str]) -> int:
 
 @dataclass
 class Material:
-    """What a surface feels like; knurl_material_desc in knurl/scene.h. method: "S1", "S2", "bandlimited", or None."""
+    """What a surface feels like; knurl_material_desc in knurl/scene.h. method: "S1", "S2", "bandlimited", or None. Or a name
+    from add_method()."""
 
     stiffness: float = 400.0
     spatial_frequency: Tuple[float, float] = (0.0, 0.0)
@@ -278,6 +280,7 @@ class Scene(Owner):
                 own.fill(rows[begin:end], None if given is None else given[begin:end],
                          None if absent is None else absent[begin:end])
                 check(lib.knurl_scene_tick_batch(handle, hip, own.input, end - begin, own.output if whole is None else whole + begin))
+                raise_error()
                 if whole is None:
                     copy_fields(own.outputs[:end - begin], results[begin:end])
             return as_ticks(results, own.rate)

@@ -5,6 +5,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ._library import arrays_of, check, ffi, lib
+from .methods import raise_error
 from .scene import _method, _rows, _tuple_of
 from .ticks import Ticks, as_ticks
 
@@ -57,4 +58,5 @@ class Grating:
         to = ffi.from_buffer("knurl_grating_output[]", found)
         for i in range(len(at)):
             lib.knurl_grating_step(self._grating, self._state, x + 2 * i, v + 2 * i, to + i)
+        raise_error()
         return as_ticks(found, self._grating.update_rate_hz)
