@@ -1,11 +1,11 @@
-# Packages of another Debian than this host's, downloaded by an apt of their own: nothing is installed on the host.
-# To be sourced; wants $dir (where to), PACKAGES, and give_up(), which is called with why it cannot be had.
-# download SUITE leaves them in $dir/apt/cache/archives.
+# Downloads packages of another Debian than this host's with a private apt: nothing is installed on the host. Source
+# this file; it needs $dir (the destination), PACKAGES, and give_up(), which is called with the reason of a failure.
+# download SUITE puts them into $dir/apt/cache/archives.
 for tool in apt-get dpkg-deb tar; do
     command -v $tool >/dev/null || give_up "there is no $tool"
 done
 
-# The mirror and the key that this host trusts already, in either of apt's notations.
+# The host's own mirror and key, in either of apt's notations.
 find_mirror() {
     local sources=/etc/apt/sources.list.d/debian.sources
     mirror=''
@@ -23,8 +23,8 @@ find_mirror() {
     [ -r "$keyring" ] || give_up "Debian's keys are not here ($keyring; package debian-archive-keyring)"
 }
 
-# An apt that knows of nothing installed, so that it downloads the whole closure, the C library included. Testing's
-# Release file is often older than it promises to be; its signature is checked all the same.
+# An apt without installed packages, so that it downloads all dependencies, including the C library. Testing's Release
+# file is often past its Valid-Until date; its signature is still checked.
 apt_apart() {
     local apt=$dir/apt
     apt-get -o Dir::Etc::sourcelist=/dev/null -o Dir::Etc::sourceparts="$apt/sources" \

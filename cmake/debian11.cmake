@@ -1,5 +1,5 @@
-# Linux (x86-64) with Debian 11's C library: what cmake/debian11.sh has put into build/debian11.
-# As the compiler names it in assertions: without links.
+# Linux (x86-64) with Debian 11's C library: from build/debian11, made by cmake/debian11.sh.
+# Without links: the path as in the compiler's assertions.
 file(REAL_PATH ${CMAKE_CURRENT_LIST_DIR}/../build/debian11/root _root)
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR x86_64)

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Puts Debian 11's C library, its headers and its compiler into DIR/root, so that what is built with them
-# (cmake/debian11.cmake) runs wherever glibc is 2.31 or newer: Ubuntu 20.04 and Debian 11 on. The compiler runs on the
-# host as it is. Header-only libraries are the host's.
-# usage: debian11.sh DIR     Does nothing where it is there already. Exit 3: it cannot be had (no network, no apt).
+# Puts Debian 11's C library, its headers and its compiler into DIR/root, so that binaries built with them
+# (cmake/debian11.cmake) run with glibc 2.31 or newer: from Ubuntu 20.04 and Debian 11 on. The compiler runs directly on
+# the host. Header-only libraries are the host's.
+# usage: debian11.sh DIR     Does nothing if it is there already. Exit 3: not available (no network, no apt).
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 [ $# -eq 1 ] || { echo "usage: debian11.sh DIR" >&2; exit 2; }
@@ -37,12 +37,12 @@ for link in bin sbin lib lib64; do
     ln -s usr/$link "$root/$link"
 done
 for deb in "$dir"/apt/cache/archives/*.deb; do
-    case ${deb##*/} in binutils* | libbinutils* | libctf*) continue ;; esac # the host's will do, and run here
+    case ${deb##*/} in binutils* | libbinutils* | libctf*) continue ;; esac # the host's are good enough
     dpkg-deb --fsys-tarfile "$deb" | tar -C "$root" -x --keep-directory-symlink --exclude='./usr/share/doc/*' \
         --exclude='./usr/share/locale/*' --exclude='./usr/share/man/*'
 done
 rm -rf "$dir/apt"
-find "$root" -type l -lname '/*' -printf '%p\t%l\n' | # else they would name the host's files
+find "$root" -type l -lname '/*' -printf '%p\t%l\n' | # otherwise they would refer to the host's files
     while IFS=$'\t' read -r link target; do ln -sfr "$root$target" "$link"; done
 for package in "${HEADERS[@]}"; do
     dpkg-query -L "$package" | grep -E '^/usr/(include|share/cmake|share/pkgconfig|lib/.*/(cmake|pkgconfig))/' |

@@ -1,5 +1,5 @@
-# What `cmake --install` puts where: libraries (component runtime), headers and what finds them (dev), the tool and the
-# rules for devices (tool). Everything finds the rest relative to itself: an installed tree can be moved.
+# Files of `cmake --install`: libraries (component runtime), headers and package files (dev), the tool and the rules for
+# devices (tool). All paths are relative: an installed tree can be moved.
 include(CMakePackageConfigHelpers)
 set(_package ${CMAKE_INSTALL_LIBDIR}/cmake/knurl)
 set(_libraries knurl)
@@ -7,7 +7,7 @@ if(KNURL_GLTF)
   list(APPEND _libraries knurl_gltf)
   set_target_properties(knurl_gltf PROPERTIES EXPORT_NAME gltf)
 endif()
-# For pkg-config: the prefix from where its files are, and what static libraries need besides.
+# For pkg-config: the prefix relative to its files, and the dependencies of static libraries.
 file(RELATIVE_PATH KNURL_PREFIX ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 if(NOT BUILD_SHARED_LIBS)
   set(KNURL_PC_LIBS " -lm -pthread")
@@ -31,7 +31,7 @@ foreach(library ${_libraries})
 endforeach()
 install(DIRECTORY sdk/include/knurl DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev)
 
-# What the headers declare, for makers of bindings; only if ./run mirror has fetched libclang.
+# api.json: the declarations of the headers, for makers of bindings; only if ./run mirror has fetched libclang.
 set(_libclang ${PROJECT_SOURCE_DIR}/build/mirror-venv/bin/python)
 if(EXISTS ${_libclang})
   file(GLOB _headers CONFIGURE_DEPENDS sdk/include/knurl/*.h)

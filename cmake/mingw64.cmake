@@ -1,12 +1,13 @@
-# Windows (x86-64) from Linux. What tests/windows/prepare.sh puts into build/windows stands beside the compiler's own.
+# Windows (x86-64) from Linux. Libraries in build/windows, from tests/windows/prepare.sh, are used beside the compiler's
+# own.
 set(CMAKE_SYSTEM_NAME Windows)
 set(CMAKE_SYSTEM_PROCESSOR x86_64)
 set(CMAKE_C_COMPILER x86_64-w64-mingw32-gcc-posix)
 set(CMAKE_CXX_COMPILER x86_64-w64-mingw32-g++-posix)
 set(CMAKE_RC_COMPILER x86_64-w64-mingw32-windres)
 
-# The compiler's runtime goes in: a player's machine has no libgcc, libstdc++ or libwinpthread. The same bytes whenever
-# it is linked.
+# Links the compiler's runtime statically: a player's machine has no libgcc, libstdc++ or libwinpthread. Reproducible:
+# without time stamps.
 foreach(kind EXE SHARED MODULE)
   set(CMAKE_${kind}_LINKER_FLAGS_INIT "-static -Wl,--no-insert-timestamp")
 endforeach()

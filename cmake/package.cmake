@@ -1,6 +1,5 @@
-# What `cpack` packs: an archive of everything, and Debian packages: the libraries (libknurl0.3), what is needed to build
-# against them (libknurl-dev) and the tool (knurl). `./run release` calls it. The same sources give the same bytes where
-# SOURCE_DATE_EPOCH is set.
+# Packages of `cpack`: an archive of everything, and Debian packages: the libraries (libknurl0.3), the development files
+# (libknurl-dev) and the tool (knurl). `./run release` calls it. Reproducible if SOURCE_DATE_EPOCH is set.
 set(CPACK_PACKAGE_NAME knurl)
 set(CPACK_PACKAGE_VENDOR "The Knurl authors")
 set(CPACK_PACKAGE_CONTACT "The Knurl authors <root@localhost>" CACHE STRING "Who answers for the Debian packages")

@@ -11,7 +11,8 @@ ALIGN = 14  # 2^14 = 16,384 bytes: a page on arm64
 
 
 def universal(slices):
-    """The bytes of a universal file; ValueError if a slice is no 64-bit Mach-O file, or two are for one processor."""
+    """The bytes of a universal file; ValueError if a slice is not a 64-bit Mach-O file, or two are for the same
+    processor."""
     entries, body, seen = [], b"", set()
     offset = 8 + 20 * len(slices)
     for data in slices:

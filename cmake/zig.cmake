@@ -1,10 +1,10 @@
-# macOS (arm64, x86-64) and Linux (arm64) from Linux, with the compiler that cmake/zig.sh has put into build/zig.
-# KNURL_ZIG_TARGET: as Zig names it; presets set it.
+# macOS (arm64, x86-64) and Linux (arm64) from Linux, with the compiler in build/zig, from cmake/zig.sh.
+# KNURL_ZIG_TARGET: Zig's name of the target; presets set it.
 set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES KNURL_ZIG_TARGET)
 string(REGEX MATCH "^[^-]+" CMAKE_SYSTEM_PROCESSOR ${KNURL_ZIG_TARGET})
 if(KNURL_ZIG_TARGET MATCHES macos)
   set(CMAKE_SYSTEM_NAME Darwin)
-  set(CMAKE_INSTALL_NAME_TOOL true) # not needed: what is built is not installed with another name
+  set(CMAKE_INSTALL_NAME_TOOL true) # not needed: binaries are not renamed at installation
 else()
   set(CMAKE_SYSTEM_NAME Linux)
 endif()
@@ -13,7 +13,7 @@ set(CMAKE_C_COMPILER ${_zig}/bin/${KNURL_ZIG_TARGET}-cc)
 set(CMAKE_CXX_COMPILER ${_zig}/bin/${KNURL_ZIG_TARGET}-c++)
 set(CMAKE_AR ${_zig}/bin/ar)
 set(CMAKE_RANLIB ${_zig}/bin/ranlib)
-foreach(kind EXE SHARED MODULE) # the C++ library comes with debug information, which names folders
+foreach(kind EXE SHARED MODULE) # the C++ library has debug information, which contains folder names
   set(CMAKE_${kind}_LINKER_FLAGS_INIT -s)
 endforeach()
 set(CMAKE_FIND_ROOT_PATH ${_zig}/prefix)

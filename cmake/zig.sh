@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Puts the compiler for macOS and Linux on arm64 into DIR: Zig's, which carries the headers and C libraries of both, and
-# the headers of other libraries that Knurl is built with (cmake/zig.cmake uses them). Header-only libraries are the host's.
+# Puts the compiler for macOS and Linux on arm64 into DIR: Zig's, which includes the headers and C libraries of both,
+# and the headers of Knurl's other dependencies (cmake/zig.cmake uses them). Header-only libraries are the host's.
 # usage: zig.sh DIR     Does nothing if that version is there already. Exit 3: it cannot be downloaded.
 set -euo pipefail
 [ $# -eq 1 ] || { echo "usage: zig.sh DIR" >&2; exit 2; }

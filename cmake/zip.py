@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Packs a folder into a zip; the same files give the same bytes: sorted, of one time (SOURCE_DATE_EPOCH, or 1980).
+"""Packs a folder into a zip; reproducible: sorted, with one time (SOURCE_DATE_EPOCH, or 1980).
 usage: zip.py OUT.zip FOLDER     The folder's own name comes first in every path. SPDX-License-Identifier: MIT"""
 import os
 import pathlib
@@ -7,7 +7,7 @@ import sys
 import time
 import zipfile
 
-EARLIEST = 315532800  # 1980: a zip knows no time before
+EARLIEST = 315532800  # 1980: the earliest time in a zip
 
 out, folder = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]).resolve()
 moment = time.gmtime(max(EARLIEST, int(os.environ.get("SOURCE_DATE_EPOCH", "0"))))[:6]

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Doxygen's filter for Markdown (docs/Doxyfile): gives each page a name, turns links between pages into references, and
-leaves of other links within the repository their text. Of a <picture> the light variant stays.
+replaces other links within the repository by their text. Keeps the light variant of a <picture>.
 
 SPDX-License-Identifier: MIT
 """

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Writes api.json: everything that the public headers declare, for makers of bindings. Sizes and offsets are those of
-64-bit Linux and Windows, which are the same. Units, ranges, defaults, threads and errors are taken from the docstrings,
-which are there, too: who owns memory is told in words. Needs what bindings/unity/native/requirements.txt names.
+64-bit Linux and Windows, which are the same. Units, ranges, defaults, threads and errors are extracted from the
+docstrings, which are included; they also describe the ownership of memory. Needs
+bindings/unity/native/requirements.txt.
 
     api.py FILE    SPDX-License-Identifier: MIT"""
 import json
@@ -30,7 +31,7 @@ def first(pattern, text):
 
 
 def facts(doc):
-    """What a docstring says in the headers' fixed phrases; what it does not say is left out."""
+    """The facts in a docstring, from the headers' fixed phrases; missing ones are left out."""
     unit = first(rf"(?:^|[,:] |\d )({UNITS})(?=[\s,:;.)]|$)", doc)
     told = {"doc": doc, "unit": unit, "range": first(rf"((?:{NUMBER}) to (?:{NUMBER})|>=? 0\b)", doc),
             "default": first(r"(?<!by )\bdefault:? ((?:[^;.,:)]|\.(?=\d)|, (?=[\d-]))+)", doc) or first(r"\[([^\]]*)\]$", doc)}
@@ -65,7 +66,7 @@ def struct(cursor, doc):
 
 
 def number(cursor):
-    """A macro's plain number; None for other macros."""
+    """The number of a macro; None for other macros."""
     tokens = "".join(token.spelling for token in list(cursor.get_tokens())[1:]).strip("()")
     try:
         return json.loads(tokens)

@@ -1,4 +1,5 @@
-# Part of ./run: ./run lint, and what ./run test looks at first: formatting, clang-tidy, and how the samples print names.
+# Part of ./run: ./run lint, and the first step of ./run test: formatting, clang-tidy, and the printing of names in
+# samples.
 
 lint() {
     need_packages "${BUILD_PACKAGES[@]}" git
@@ -10,7 +11,7 @@ lint() {
     echo "run: lint: ${#sources[@]} files clean"
 }
 
-# The cheapest check first: what was changed, its format and clang-tidy. Nothing was changed: nothing is set up.
+# The cheapest check first: format and clang-tidy of changed files. Without changes it sets nothing up.
 lint_changed() {
     local sources
     mapfile -t sources < <(changed_sources)
@@ -24,7 +25,7 @@ lint_changed() {
     echo "run: lint: ${#sources[@]} changed files clean"
 }
 
-# The C and C++ files that were changed against BASE (default: where this branch left main), committed or not.
+# The C and C++ files that differ from BASE (default: this branch's base on main), committed or not.
 changed_sources() {
     local base
     command -v git >/dev/null || return 0
@@ -37,8 +38,8 @@ check_sources() {
     local windows='(_windows\.c|^tests/windows/.*)$' units
     /usr/bin/python3 -B tests/tool/printing.py
     build/lint-venv/bin/clang-format --dry-run --Werror "$@"
-    # No part of this build: fuzz targets, the chooser of mutants, code for browsers, code that is built against an
-    # installed Knurl or by other compilers, and the stand-in for libwebsockets.
+    # Not part of this build: fuzz targets, the selector of mutants, code for browsers, code that is built with an
+    # installed Knurl or other compilers, and the stand-in for libwebsockets.
     local elsewhere='^tests/(fuzz|mutants|package/(consumer|host|versions))/|^bindings/python/native/|^tests/abi/deprecated\.c$|^samples/web/|^tests/fidelity/hashes\.c$|/view_none\.c$'
     units=$(printf '%s\n' "$@" | grep -E '\.(c|cpp)$' | grep -vE "$windows|$elsewhere" || true)
     [ -z "$units" ] || tidy release <<<"$units"

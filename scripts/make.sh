@@ -1,8 +1,8 @@
-# Part of ./run: ./run demo, figures, bench, web, docs and mirror: what is made to be looked at.
+# Part of ./run: ./run demo, figures, bench, web, docs and mirror.
 
 DEMO=(run assets/plate_1d.glb --stroke sweep --seconds 5)
 
-# Builds the tool alone, with few packages; what is configured already with tests stays so.
+# Builds only the tool, with few packages; an existing configuration with tests is kept.
 demo() {
     need_packages "${DEMO_PACKAGES[@]}"
     mkdir -p build/demo
@@ -17,8 +17,8 @@ demo() {
     [ -x build/release/knurl_study ] || echo 'run: this build/release/knurl has no --view, Falcon, raw HID, metrics and study: ./run test installs what they need, and builds them'
 }
 
-# usage: figures [--check]. assets/pictures/NAME.data says what NAME.png was drawn from; --check draws nothing and says
-# which data have changed since. bench.png and the times in tradeoff.png are left out: they are this machine's, today's.
+# usage: figures [--check]. assets/pictures/NAME.data summarises the data of NAME.png; --check draws nothing and lists
+# changed data. bench.png and the times in tradeoff.png are left out, because they depend on the machine.
 figures() {
     local name stale=0
     case ${1:-} in
@@ -50,8 +50,8 @@ figures() {
         build/release/knurl study "$name" --out build/study
         picture "$name" figures.py "build/study/$name".{json,csv}
     done
-    picture speed_accuracy figures.py build/study/speed_accuracy.json build/study/tradeoff.csv # the tradeoff's
-    for name in stability_methods stability_amplitudes; do # the same study's
+    picture speed_accuracy figures.py build/study/speed_accuracy.json build/study/tradeoff.csv # from the tradeoff
+    for name in stability_methods stability_amplitudes; do # from the same study
         picture "$name" figures.py "build/study/$name".{json,csv}
     done
     if [ "$how" = --check ]; then
@@ -59,7 +59,7 @@ figures() {
         echo 'run: the pictures show what the code does'
         return 0
     fi
-    /usr/bin/python3 samples/study/dark.py "$out"/{sweep,stability,speed_accuracy,smooth}.png # those of README.md and docs/
+    /usr/bin/python3 samples/study/dark.py "$out"/{sweep,stability,speed_accuracy,smooth}.png # used in README.md and docs/
     [ "$how" != --update ] || cp build/study/failures.md samples/study/failures.md
     echo "run: the numbers are in build/study, the pictures and what they were drawn from in $out"
 }
@@ -79,7 +79,7 @@ bench() {
     echo "run: the numbers are in build/study, the picture is assets/pictures/bench.png"
 }
 
-# The page, with what it is made from.
+# Builds the page, with its dependencies.
 web() {
     local begin=$SECONDS code=0
     need_packages "${WEB_PACKAGES[@]}"

@@ -3,7 +3,7 @@
 GODOT_ENGINE=${KNURL_GODOT_ROOT:-$PWD/build/godot-engine}
 GODOT_LIBRARY=godot/libknurl_godot.linux.x86_64.so # below a preset's folder
 
-# The real engine, once; where it cannot be had, says why.
+# Fetches the engine, once; prints the reason if it is not available.
 fetch_godot() {
     bindings/godot/engine/fetch.sh "$GODOT_ENGINE"
 }
@@ -20,7 +20,7 @@ godot_demo() {
     echo "run: what was felt is drawn in build/godot-demo/shot.png"
 }
 
-# The compiler for macOS and for Linux on arm64; says so if it cannot be downloaded.
+# Fetches the compiler for macOS and for Linux on arm64; prints the reason if it cannot be downloaded.
 prepare_zig() {
     need_packages "${BUILD_PACKAGES[@]}" python3-venv
     mkdir -p build
@@ -31,7 +31,7 @@ prepare_zig() {
 }
 
 # Builds an engine's library for macOS, as one file for both processors, and for Linux on arm64.
-# usage: build_elsewhere TARGET FILE_BELOW_A_PRESET     Leaves build/macos/FILE.
+# usage: build_elsewhere TARGET FILE_BELOW_A_PRESET     Writes build/macos/FILE.
 build_elsewhere() {
     local preset
     for preset in macos-arm64 macos-x86_64 linux-arm64; do
@@ -67,7 +67,7 @@ package_godot() {
     local package=$PWD/build/knurl-godot-$version.zip
     bindings/godot/package.sh "$package" "${libraries[@]}"
     bindings/godot/demo.sh "build/release/$GODOT_LIBRARY" "$PWD/build/knurl-godot-demo"
-    strip --strip-unneeded "build/knurl-godot-demo/addons/knurl/bin/${GODOT_LIBRARY##*/}" # debug information names folders
+    strip --strip-unneeded "build/knurl-godot-demo/addons/knurl/bin/${GODOT_LIBRARY##*/}" # debug information contains folder names
     cmake/zip.py "build/knurl-godot-demo-$version.zip" build/knurl-godot-demo
     echo "run: the demo project is in build/knurl-godot-demo-$version.zip"
     if fetch_godot; then
@@ -77,7 +77,8 @@ package_godot() {
     fi
 }
 
-# Debian 11's C library and compiler, so that what is shipped runs on older Linux; where they cannot be had, says so.
+# Fetches Debian 11's C library and compiler, so that releases run on older Linux; prints the reason if they are not
+# available.
 prepare_debian11() {
     mkdir -p build
     if ! with_progress 'preparing for older Linux' build/debian11.log cmake/debian11.sh build/debian11; then
@@ -120,7 +121,7 @@ package_unity() {
     [ -z "${1:-}" ] || bindings/unity/branch.sh build/com.knurl.haptics "$1"
 }
 
-# One zip of what Windows needs, both engines' packages as they were built included, tried in a folder of its own.
+# One zip for Windows, including both engines' packages, tested in a separate folder.
 package_windows() {
     local version name tried
     version=$(sed -n 's/^#define KNURL_VERSION_[A-Z]* \([0-9]*\)$/\1/p' sdk/include/knurl/base.h | paste -sd .)
@@ -145,7 +146,7 @@ package_windows() {
     rm -rf "$tried"
 }
 
-# The latest commit's time, for what is packed: the same sources give the same bytes.
+# Uses the time of the last commit for archives: the same sources give the same bytes.
 date_sources() {
     need_packages git
     SOURCE_DATE_EPOCH=$(git log -1 --format=%ct)
@@ -189,7 +190,8 @@ release() {
     [ "${1:-}" != check ] || check_release "$out"
 }
 
-# The archives in an empty Debian, and those of a second build: of a clone, in another folder, past all caches of compilers.
+# Tests the archives in an empty Debian, and compares them with a second build: of a clone, in another folder, without
+# compiler caches.
 # usage: check_release RELEASE
 check_release() {
     local again=$PWD/build/again
@@ -202,7 +204,7 @@ check_release() {
     echo 'run: building all of it again'
     rm -rf "$again"
     git clone -q . "$again"
-    mkdir -p "$again/build/debian11" # what was fetched need not be fetched again
+    mkdir -p "$again/build/debian11" # reuse downloads
     ln -s "$PWD/build/windows" "$PWD/build/zig" "$PWD/build/mirror-venv" "$again/build/"
     ln -s "$PWD/build/debian11/root" "$again/build/debian11/root"
     KNURL_GODOT_ROOT=$GODOT_ENGINE CCACHE_DISABLE=1 "$again/run" release

@@ -1,4 +1,4 @@
-"""Prints what `cmake --preset NAME` stands for, an argument a line: CMake before 3.21 cannot read CMakePresets.json.
+"""Prints the arguments of `cmake --preset NAME`, one per line: CMake before 3.21 cannot read CMakePresets.json.
 usage: preset.py NAME"""
 import json
 import os
@@ -10,7 +10,7 @@ with open("CMakePresets.json", encoding="utf-8") as file:
 
 
 def collect(name):
-    """A preset with what it inherits."""
+    """A preset with its inherited settings."""
     preset = PRESETS[name]
     parent = collect(preset["inherits"]) if "inherits" in preset else {}
     return {**parent, **preset, "cacheVariables": {**parent.get("cacheVariables", {}), **preset.get("cacheVariables", {})}}

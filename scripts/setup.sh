@@ -1,4 +1,4 @@
-# Part of ./run: what every command needs: packages, Python environments, builds.
+# Part of ./run, for every command: packages, Python environments, builds.
 # shellcheck disable=SC2034 # the other parts use its variables
 
 BUILD_PACKAGES=(g++ cmake ninja-build pkg-config libtinygltf-dev nlohmann-json3-dev libglm-dev libusb-1.0-0-dev
@@ -12,11 +12,11 @@ UNITY_PACKAGES=(mono-mcs mono-runtime libmono-cil-dev nunit-console libnunit-cil
 PYTHON_PACKAGES=(python3-cffi python3-numpy python3-setuptools python3-wheel python3-pip python3-venv
     python3-pandas python3-matplotlib mypy)
 NUMBERS_PACKAGES=(clang gcc-aarch64-linux-gnu libc6-dev-arm64-cross gcc-arm-linux-gnueabihf libc6-dev-armhf-cross qemu-user)
-OLDEST_SYSTEM=bullseye CURRENT_SYSTEM=trixie NEWEST_SYSTEM=sid # of those that the two commands are tried in
-EXIT_SETUP=3 # what is missing could not be installed
+OLDEST_SYSTEM=bullseye CURRENT_SYSTEM=trixie NEWEST_SYSTEM=sid # Debian suites in which the two commands are tested
+EXIT_SETUP=3 # a dependency could not be installed
 
-# Where there is ccache, builds go through it. The tests of packages compile the library again in folders of their own: with
-# CCACHE_NOHASHDIR they get the objects of build/release, whose debug information names every source by its whole path.
+# Uses ccache if it is installed. The tests of packages compile the library again in other folders: with
+# CCACHE_NOHASHDIR they reuse the objects of build/release, whose debug information has full paths of sources.
 use_ccache() {
     command -v ccache >/dev/null || return 0
     export CCACHE_NOHASHDIR=${CCACHE_NOHASHDIR-1}
@@ -25,7 +25,8 @@ use_ccache() {
 }
 use_ccache
 
-# Runs a command whose output goes to a file, and says how far it is: a line that moves on a terminal, else one every 15 s.
+# Runs a command with its output in a file, and shows progress: one changing line on a terminal, otherwise a line every
+# 15 s.
 # usage: with_progress WHAT LOG COMMAND...
 with_progress() {
     local what=$1 log=$2 code=0 ticker
@@ -49,7 +50,7 @@ with_progress() {
     return $code
 }
 
-# Installs those of the named packages that are missing, and says which; without apt-get it says what to install.
+# Installs missing packages and prints their names; without apt-get it prints the names to install.
 need_packages() {
     if ! command -v apt-get >/dev/null; then
         look_for_packages "$@"
@@ -92,8 +93,8 @@ need_packages() {
     rm -f "$log"
 }
 
-# Where there is no apt-get: which of the packages are missing, by their names there, which docs/building.md lists. What is
-# no package there is a header, which may stand in /usr/local/include.
+# Without apt-get: lists the missing packages by the system's names from docs/building.md. A header in that list may be
+# in /usr/local/include.
 look_for_packages() {
     local column query install package name missing=() headers=()
     if command -v dnf >/dev/null; then
@@ -118,7 +119,7 @@ look_for_packages() {
     [ $((${#missing[@]} + ${#headers[@]})) -eq 0 ] || exit $EXIT_SETUP
 }
 
-# A Python environment in build/NAME with what a file of requirements names, pinned by version and hash.
+# A Python environment in build/NAME from a file of requirements, pinned by version and hash.
 need_python() {
     local venv=build/$1 requirements=$2
     need_packages python3-venv
@@ -137,7 +138,7 @@ need_python() {
     cp "$requirements" "$venv/installed.txt"
 }
 
-# Warnings are errors with the compiler and the libraries of Debian 12, which all is written with. Others warn of other things.
+# Warnings are errors with Debian 12's compiler and libraries, the reference. Others have different warnings.
 warnings_as_errors() {
     # shellcheck source=/dev/null
     if [ -z "${CC:-}${CXX:-}" ] && [ "$(. /etc/os-release 2>/dev/null && echo "${ID:-} ${VERSION_ID:-}")" = 'debian 12' ]; then

@@ -12,7 +12,7 @@ run_tests() {
         *) echo "run: unknown label '$label'; known: all $LABELS" >&2; exit 2 ;;
         esac
         case $label in
-        gltf | threads | tool) targets+=("${label}_tests") ;; # all of these are programs, which need little else
+        gltf | threads | tool) targets+=("${label}_tests") ;; # these targets are only programs
         *) whole=1 ;;
         esac
     done
@@ -34,18 +34,19 @@ run_tests() {
     [ -z "$whole" ] || targets=()
     build release "${targets[@]}"
     run_ctest release "$excluded" "${narrow[@]}"
-    if [ -n "$all" ] && [ "${labels[*]}" != godot ]; then # the engine cannot load what needs a sanitizer's runtime first
+    if [ -n "$all" ] && [ "${labels[*]}" != godot ]; then # the engine cannot load libraries that need a sanitizer's runtime
         build asan-ubsan "${targets[@]}"
         run_ctest asan-ubsan "" "${narrow[@]}"
     fi
-    ! wanted device || cat build/release/tests/device/faults/faults.md # what each fault comes to
+    ! wanted device || cat build/release/tests/device/faults/faults.md # results of each fault
     [ -z "$all" ] || ! wanted threads || test_threads
     [ -z "$all" ] || [ ${#labels[@]} -gt 0 ] || fuzz_in_tests
     [ -z "$all" ] || [ ${#labels[@]} -gt 0 ] || test_systems 'gltf tool' "$CURRENT_SYSTEM"
     ! wanted windows || test_windows
 }
 
-# The README's two commands in empty Debians; where these cannot be made, says so and goes on. usage: test_systems LABELS SUITE...
+# Runs the README's two commands in empty Debians; prints a note and continues if these cannot be made. usage:
+# test_systems LABELS SUITE...
 test_systems() {
     local code=0
     (need_packages debootstrap) && tests/package/systems.sh build/systems "$@" || code=$?
@@ -53,9 +54,9 @@ test_systems() {
     return $code
 }
 
-# Runs the tests of a built preset: first what only computes, as many at once as there are CPUs; then what waits on threads
-# of its own, which is mostly asleep, several at once, and what failed once more by itself; last what measures real time,
-# one by one. usage: run_ctest PRESET EXCLUDED [OPTION...]: EXCLUDED is a pattern of labels, or nothing
+# Runs the tests of a built preset: first those that only compute, one per CPU; then those that wait for threads,
+# several per CPU, repeating failures one by one; last those in real time, one by one. usage: run_ctest PRESET EXCLUDED
+# [OPTION...]: EXCLUDED is a pattern of labels, or nothing
 run_ctest() {
     local preset=$1 excluded=${2:+|$2} failed=0 some=0 part select
     shift 2
@@ -75,7 +76,7 @@ run_ctest() {
                 test_preset "$preset" -j 1 --rerun-failed || failed=1
             fi
         fi
-        grep -hi '^skipped:\|^unity: \|^web: ' "build/$preset/Testing/Temporary/LastTest.log" || true # why; those in one
+        grep -hi '^skipped:\|^unity: \|^web: ' "build/$preset/Testing/Temporary/LastTest.log" || true # the reason; those in one
     done
     if [ $some -eq 0 ]; then
         echo "run: $preset has no test with these labels" >&2
@@ -84,7 +85,7 @@ run_ctest() {
     return $failed
 }
 
-# The programs that have threads, under ThreadSanitizer; where that cannot start, says so and goes on.
+# Runs programs with threads under ThreadSanitizer; prints a note and continues if that cannot start.
 test_threads() {
     local probe=build/tsan-probe runner=()
     mkdir -p build
@@ -92,7 +93,7 @@ test_threads() {
         echo "run: SKIPPED: ThreadSanitizer: this compiler cannot build with it" >&2
         return 0
     fi
-    if ! "$probe" 2>/dev/null; then # it wants addresses that some kernels' ASLR takes
+    if ! "$probe" 2>/dev/null; then # it needs addresses that some kernels' ASLR uses
         runner=(setarch -R)
         if ! "${runner[@]}" "$probe" 2>/dev/null; then
             echo "run: SKIPPED: ThreadSanitizer cannot start on this machine, with or without ASLR" >&2
@@ -108,22 +109,23 @@ test_threads() {
     fi
 }
 
-# What builds for Windows, cross-built with MinGW-w64 and run under wine; where these cannot be had, says so and goes on.
+# Cross-builds for Windows with MinGW-w64 and runs the tests under wine; prints a note and continues if these are not
+# available.
 test_windows() {
     local preset
     if ! prepare_windows; then
         echo "run: SKIPPED: Windows: nothing was tested for it" >&2
         return 0
     fi
-    build release knurl_tool knurl_study_tool emulate_rawhid # to compare the Windows ones with, and a device for them
+    build release knurl_tool knurl_study_tool emulate_rawhid # for comparison with the Windows ones, and a device for them
     for preset in mingw mingw-dll; do
         build "$preset"
         run_ctest "$preset" ""
     done
 }
 
-# mono and NUnit for the Unity package's C#, Debian 12's where the system has no more; and the parser that its view of the
-# headers is made with.
+# mono and NUnit for the Unity package's C#, from Debian 12 if the system has none; and libclang, which generates its
+# mirror of the headers.
 prepare_unity() {
     if ! (need_packages "${UNITY_PACKAGES[@]}"); then
         mkdir -p build
@@ -135,8 +137,8 @@ prepare_unity() {
     (need_python mirror-venv bindings/unity/native/requirements.txt)
 }
 
-# The page for its tests in a browser. Asked for by its label, what is missing is installed and every case is run; else a
-# few cases are, where all is installed. usage: prepare_web [LABEL...]
+# The page for its tests in a browser. If requested by label, installs missing packages and runs every case; otherwise
+# runs a few cases if all is installed. usage: prepare_web [LABEL...]
 prepare_web() {
     local code=0
     if [ $# -gt 0 ]; then
@@ -152,7 +154,7 @@ prepare_web() {
     return $code
 }
 
-# The cross compiler, wine, and what is linked for Windows; where these cannot be had, says so.
+# The cross compiler, wine, and libraries for Windows; prints a note if these are not available.
 prepare_windows() {
     if ! (need_packages "${WINDOWS_PACKAGES[@]}"); then
         echo "run: MinGW-w64 and wine cannot be had here" >&2
@@ -166,14 +168,14 @@ prepare_windows() {
     fi
 }
 
-# Hashes of what builds by other compilers and for other machines compute: they must be the same.
+# Hashes of results from other compilers and machines: they must be equal.
 same_numbers() {
     (need_packages "${NUMBERS_PACKAGES[@]}") || echo 'run: some compilers cannot be had, see above; they are left out' >&2
     mkdir -p build
     /usr/bin/python3 -B tests/fidelity/same_numbers.py "$PWD" "$PWD/build/same_numbers" cc
 }
 
-# What is cross-built for macOS and for Linux on arm64, looked at; a run under qemu.
+# Checks the cross-built libraries for macOS and for Linux on arm64, with a run under qemu.
 test_elsewhere() {
     prepare_zig || return 1
     (need_packages llvm qemu-user libc6-arm64-cross) || echo 'run: qemu cannot be had, see above: nothing runs under it' >&2
@@ -184,8 +186,8 @@ test_elsewhere() {
     tests/package/elsewhere.py build build/release/knurl assets/plate_1d.glb
 }
 
-# The tests that the others are short forms of: each for a minute, or some ten times as far. They run without ctest,
-# which would end them after two minutes.
+# The long forms of tests: each for a minute, or some ten times as long. Without ctest, which would stop them after two
+# minutes.
 soak() {
     need_packages "${BUILD_PACKAGES[@]}"
     build release
@@ -202,13 +204,13 @@ soak() {
     done
     same_numbers || failed+=(same_numbers)
     test_elsewhere || failed+=('macOS and arm64')
-    test_systems '' "$CURRENT_SYSTEM" "$NEWEST_SYSTEM" || failed+=('the two commands in other systems') # and what warns there
+    test_systems '' "$CURRENT_SYSTEM" "$NEWEST_SYSTEM" || failed+=('the two commands in other systems') # and their warnings
     figures --check || failed+=("figures --check")
     [ ${#failed[@]} -eq 0 ] || { echo "run: soak: FAILED: ${failed[*]}" >&2; exit 1; }
     echo 'run: soak: all is well'
 }
 
-# One target of libFuzzer, for so many seconds; a line of what it came to. usage: fuzz_target NAME SECONDS
+# One target of libFuzzer for some seconds; prints its result in a line. usage: fuzz_target NAME SECONDS
 fuzz_target() {
     local name=$1 seconds=$2 dir=build/fuzz log=build/fuzz/$1.log seeds=() options=()
     mkdir -p "$dir/corpus/$name" "$dir/findings"
@@ -243,7 +245,7 @@ fuzz() {
     xargs -P "$(nproc)" -I {} bash -euo pipefail -c 'fuzz_target "$1" "$2"' fuzz {} "$seconds" <<<"$names"
 }
 
-# Five minutes of fuzzing, where Clang can be had.
+# Five minutes of fuzzing, if Clang is available.
 fuzz_in_tests() {
     if ! (need_packages "${FUZZ_PACKAGES[@]}"); then
         echo "run: SKIPPED: fuzzing: Clang cannot be had, see above" >&2
@@ -256,6 +258,6 @@ fuzz_in_tests() {
 mutants() {
     need_packages "${BUILD_PACKAGES[@]}" git
     need_python mirror-venv bindings/unity/native/requirements.txt # libclang
-    configure release # for the options that each source is compiled with
+    configure release # for the compile options of each source
     build/mirror-venv/bin/python -B tests/mutants/mutants.py "$@"
 }

@@ -26,7 +26,7 @@ def png(pixels):
 
 
 class Glb:
-    """Collects nodes, meshes and materials; save() writes them. Indices are returned as glTF counts them."""
+    """Collects nodes, meshes and materials; save() writes them. Returned indices are glTF's."""
 
     def __init__(self):
         self.binary = bytearray()

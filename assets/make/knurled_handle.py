@@ -1,6 +1,6 @@
 """Builds assets/knurled_handle.glb: a round handle along x with a cross knurl.   python3 knurled_handle.py OUT.glb
 
-UVs count periods of the knurl: u follows the arc length along the handle, v goes round it (its seam is underneath).
+UVs count periods of the knurl: u follows the arc length along the handle, v runs around it (its seam is underneath).
 SPDX-License-Identifier: MIT
 """
 import sys
@@ -11,10 +11,10 @@ from glb import Glb
 from pattern import checker
 
 FREQUENCY = 800.0        # cycles/m, both ways
-CYCLES_AROUND = 70       # whole, so that the knurl meets itself at the seam; fixes the mean radius: 13.9 mm
+CYCLES_AROUND = 70       # whole, so that the knurl is continuous at the seam; sets the mean radius: 13.9 mm
 HALF_LENGTH = 0.055      # m
 FILLET = 0.006           # m, radius of the rounded ends
-BULGE, TAPER = 0.0006, 0.04  # m, 1: bulge little enough for a straight stroke, 1 mm deep, to stay on the handle
+BULGE, TAPER = 0.0006, 0.04  # m, 1: small enough for a straight stroke, 1 mm deep, to stay on the handle
 AROUND = 64              # faces round the handle; the middle of one is on top
 STEP = 0.002             # m, about a ring's width on the handle's long part
 
@@ -43,7 +43,7 @@ def profile(mean_radius):
 
 
 def build(mean_radius):
-    """Positions, normals, uvs and triangles. The seam and the poles have vertices of their own for each face."""
+    """Positions, normals, uvs and triangles. Vertices at the seam and the poles are not shared between faces."""
     outline = profile(mean_radius)
     x, r = outline.T
     arc = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(outline, axis=0).T))])
@@ -84,7 +84,7 @@ def mean_period(positions, uvs, triangles):
 
 def main(out):
     radius = CYCLES_AROUND / FREQUENCY / (2 * np.pi)
-    for _ in range(20):  # until the mean period round the handle is that along it
+    for _ in range(20):  # until the mean periods around and along the handle are equal
         positions, _, uvs, triangles = build(radius)
         radius = round(radius / (mean_period(positions, uvs, triangles) * FREQUENCY), 7)
     positions, normals, uvs, triangles = build(radius)

@@ -7,7 +7,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 command -v blender >/dev/null || { echo "make.sh: blender is missing; run: ./run assets" >&2; exit 3; }
-python=/usr/bin/python3 # Debian's, which has apt's numpy; the python3 on the path may be another
+python=/usr/bin/python3 # Debian's, which has apt's numpy; the python3 on the PATH may differ
 
 blender --background --factory-startup --python-exit-code 1 --python plate_1d.py -- "$work/plate_1d.glb" \
     >"$work/blender.log" 2>&1 || { cat "$work/blender.log" >&2; exit 1; }

@@ -1,4 +1,4 @@
-# Builds assets/plate_1d.glb in Blender: three bars to stroke, of 1, 0.5 and 2 mm period, on a stand that is not felt.
+# Builds assets/plate_1d.glb in Blender: three bars to stroke, of 1, 0.5 and 2 mm period, on a stand without a tag.
 #   blender --background --factory-startup --python plate_1d.py -- OUT.glb
 # Blender is z up: its (x, y, z) becomes glTF's (x, z, -y).
 # SPDX-License-Identifier: MIT
@@ -11,8 +11,8 @@ LENGTH, DEPTH = 0.120, 0.018  # m, of a bar along x and across it
 PITCH = 0.022                 # m, from bar to bar
 AMPLITUDE, STIFFNESS = 0.0002, 400.0
 
-# name, cycles/m, place across (glTF z, in pitches), colour of ridges, colour of grooves (sRGB). Strokes run along
-# the first.
+# name, cycles/m, place across (glTF z, in pitches), colour of ridges, colour of grooves (sRGB). Strokes follow the
+# first.
 BARS = (
     ("bar 1 mm", 1000.0, 0, (0.96, 0.78, 0.42), (0.62, 0.42, 0.13)),
     ("bar 0.5 mm", 2000.0, -1, (0.93, 0.62, 0.50), (0.58, 0.27, 0.17)),
@@ -21,7 +21,7 @@ BARS = (
 
 
 def stripe_image(name, ridge, groove):
-    """One period of a grating, a ridge in the middle of u = 0, so that what is seen is what is felt."""
+    """One period of a grating, with the middle of a ridge at u = 0, so that the picture matches the ridges as felt."""
     width, height = 16, 4
     image = bpy.data.images.new(name, width, height)
     row = [*ridge, 1.0] * 4 + [*groove, 1.0] * 8 + [*ridge, 1.0] * 4
@@ -33,7 +33,7 @@ def stripe_image(name, ridge, groove):
 def material(name, roughness, metallic, colour=(1.0, 1.0, 1.0), image=None):
     result = bpy.data.materials.new(name)
     result.use_nodes = True
-    result.use_backface_culling = True  # else glTF says doubleSided, and a bar is felt from below as well
+    result.use_backface_culling = True  # otherwise it is doubleSided in glTF, and felt from below as well
     nodes = result.node_tree.nodes
     shader = nodes["Principled BSDF"]
     shader.inputs["Base Color"].default_value = (*colour, 1.0)
@@ -72,7 +72,7 @@ def add_bar(name, spatial_frequency, slot, ridge, groove):
 
 
 def add_box(mesh, size, top, centre_y=0.0, bevel=0.0):
-    """A box of `size` whose top face stands at z = top; all its edges are rounded where bevel > 0."""
+    """A box of `size` with its top face at z = top; all its edges are rounded if bevel > 0."""
     made = bmesh.ops.create_cube(mesh, size=1.0)["verts"]
     bmesh.ops.scale(mesh, vec=size, verts=made)
     bmesh.ops.translate(mesh, vec=(0.0, centre_y, top - size[2] / 2), verts=made)
@@ -82,7 +82,7 @@ def add_box(mesh, size, top, centre_y=0.0, bevel=0.0):
 
 
 def add_bodies():
-    """What a bar stands on: its four sides with a narrow chamfer, open at the top where the bar lies."""
+    """The stand of a bar: its four sides with a narrow chamfer, open at the top under the bar."""
     mesh = bmesh.new()
     chamfer, foot = 0.0006, -0.0045
     for _, _, slot, _, _ in BARS:

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Packs what Windows needs into one zip: the tool, the DLLs with headers and import libraries, libusb and hidapi, both
-# engines' packages, assets to try, the licences of what is inside.
+# Packs the files for Windows into one zip: the tool, the DLLs with headers and import libraries, libusb and hidapi,
+# both
+# engines' packages, assets to try, and all licences.
 # usage: package.sh OUT.zip BUILD ENGINE_PACKAGE...     BUILD: the folder of the preset mingw-dll, built
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
@@ -19,7 +20,7 @@ mkdir "$home"/{assets,engines,licences}
 install -m 755 "$prefix"/bin/*.dll "$home/bin/"
 cp "$root"/assets/*.glb "$home/assets/"
 [ $# -eq 0 ] || cp "$@" "$home/engines/"
-cp "$prefix"/licences/* "$home/licences/" # with libusb's sources: its licence asks for them
+cp "$prefix"/licences/* "$home/licences/" # with libusb's sources, as its licence requires
 cp "$root/bindings/unity/package/Third Party Notices.md" "$home/licences/knurl.md"
 for name in bin/knurl.exe bin/knurl_study.exe bin/knurl.dll bin/knurl_gltf.dll bin/libusb-1.0.dll bin/hidapi.dll \
     lib/libknurl.dll.a include/knurl/knurl.h licences/libusb.txt; do
