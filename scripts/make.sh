@@ -59,7 +59,7 @@ figures() {
         echo 'run: the pictures show what the code does'
         return 0
     fi
-    /usr/bin/python3 samples/study/dark.py "$out"/{sweep,stability,speed_accuracy,smooth}.png # used in README.md and docs/
+    /usr/bin/python3 samples/study/dark.py "$out"/{sweep,stability,speed_accuracy,smooth}.png # for README.md, docs/
     [ "$how" != --update ] || cp build/study/failures.md samples/study/failures.md
     echo "run: the numbers are in build/study, the pictures and what they were drawn from in $out"
 }

@@ -67,7 +67,7 @@ package_godot() {
     local package=$PWD/build/knurl-godot-$version.zip
     bindings/godot/package.sh "$package" "${libraries[@]}"
     bindings/godot/demo.sh "build/release/$GODOT_LIBRARY" "$PWD/build/knurl-godot-demo"
-    strip --strip-unneeded "build/knurl-godot-demo/addons/knurl/bin/${GODOT_LIBRARY##*/}" # debug information contains folder names
+    strip --strip-unneeded "build/knurl-godot-demo/addons/knurl/bin/${GODOT_LIBRARY##*/}" # contains folder names
     cmake/zip.py "build/knurl-godot-demo-$version.zip" build/knurl-godot-demo
     echo "run: the demo project is in build/knurl-godot-demo-$version.zip"
     if fetch_godot; then

@@ -34,7 +34,7 @@ run_tests() {
     [ -z "$whole" ] || targets=()
     build release "${targets[@]}"
     run_ctest release "$excluded" "${narrow[@]}"
-    if [ -n "$all" ] && [ "${labels[*]}" != godot ]; then # the engine cannot load libraries that need a sanitizer's runtime
+    if [ -n "$all" ] && [ "${labels[*]}" != godot ]; then # the engine cannot load a sanitizer's runtime
         build asan-ubsan "${targets[@]}"
         run_ctest asan-ubsan "" "${narrow[@]}"
     fi
@@ -76,7 +76,7 @@ run_ctest() {
                 test_preset "$preset" -j 1 --rerun-failed || failed=1
             fi
         fi
-        grep -hi '^skipped:\|^unity: \|^web: ' "build/$preset/Testing/Temporary/LastTest.log" || true # the reason; those in one
+        grep -hi '^skipped:\|^unity: \|^web: ' "build/$preset/Testing/Temporary/LastTest.log" || true # in one
     done
     if [ $some -eq 0 ]; then
         echo "run: $preset has no test with these labels" >&2
@@ -117,7 +117,7 @@ test_windows() {
         echo "run: SKIPPED: Windows: nothing was tested for it" >&2
         return 0
     fi
-    build release knurl_tool knurl_study_tool emulate_rawhid # for comparison with the Windows ones, and a device for them
+    build release knurl_tool knurl_study_tool emulate_rawhid # for comparison, and a device for both
     for preset in mingw mingw-dll; do
         build "$preset"
         run_ctest "$preset" ""
@@ -204,7 +204,7 @@ soak() {
     done
     same_numbers || failed+=(same_numbers)
     test_elsewhere || failed+=('macOS and arm64')
-    test_systems '' "$CURRENT_SYSTEM" "$NEWEST_SYSTEM" || failed+=('the two commands in other systems') # and their warnings
+    test_systems '' "$CURRENT_SYSTEM" "$NEWEST_SYSTEM" || failed+=('the two commands in other systems') # with warnings
     figures --check || failed+=("figures --check")
     [ ${#failed[@]} -eq 0 ] || { echo "run: soak: FAILED: ${failed[*]}" >&2; exit 1; }
     echo 'run: soak: all is well'

@@ -1,10 +1,10 @@
-/* What knurl_plane_from_mesh() makes of a mesh: for the tests of it. SPDX-License-Identifier: MIT */
+/* The result of knurl_plane_from_mesh(), for its tests. SPDX-License-Identifier: MIT */
 #ifndef KNURL_TEST_FLAT_OUTCOME_H
 #define KNURL_TEST_FLAT_OUTCOME_H
 
 #include "support/flat.h"
 
-/* What became of a mesh; why holds where it did not become a plane as well. */
+/* The result for a mesh; `why` is also set if it did not become a plane. */
 typedef struct outcome {
     knurl_heap heap;
     knurl_plane *plane;
@@ -48,7 +48,7 @@ static inline void check_stays(shape *s, const double *axis, const char *reason,
     shape_free(s);
 }
 
-/* The plane goes round `area` m2 with `edges` straight edges of `length` m in all. Frees the shape. */
+/* The outline encloses `area` m2 with `edges` straight edges of `length` m in all. Frees the shape. */
 #define CHECK_OUTLINE(s, edges, area, length) check_outline(s, edges, area, length, __LINE__)
 
 static inline void check_outline(shape *s, uint32_t edges, double area, double length, int line) {

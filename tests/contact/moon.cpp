@@ -19,7 +19,7 @@ struct file {
     json root;
     std::string bytes;
 
-    /// Where an accessor's elements begin; its offsets are the file's own, and checked.
+    /// The start of an accessor's elements; its offsets come from the file, and are checked.
     const char *data(const json &accessor, size_t size) const {
         const json &view = root.at("bufferViews").at(accessor.at("bufferView").get<size_t>());
         const size_t at = view.value("byteOffset", size_t{0}) + accessor.value("byteOffset", size_t{0});

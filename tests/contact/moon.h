@@ -6,12 +6,11 @@
 
 #include <stdio.h>
 
-/** The first mesh of a glTF file, one primitive: its positions and indices, on the heap; 0 where there is none to be
- * read. */
+/** The first mesh of a glTF file, one primitive: its positions and indices, on the heap; 0 if there is none. */
 int moon_load(const char *path, float **positions, uint32_t *vertex_count, uint32_t **indices, uint32_t *index_count);
 
-/** The moon's surface round the origin, up turned to z, its longest side shrunk to 0.3 m; an empty shape, and a
- * line that says so, where the corpus is not there. */
+/** The moon's surface around the origin, up turned to z, its longest side scaled to 0.3 m; without the corpus an empty
+ * shape and a message. */
 static inline shape body_moon(void) {
     shape s = {0};
     if (!moon_load(KNURL_TEST_CORPUS "/moon/moon_petavius_crater.gltf", &s.positions, &s.vertex_count, &s.indices,

@@ -1,4 +1,4 @@
-/* What contact on meshes is held against: the nearest point of all triangles and inside or outside, by a uniform grid.
+/* The reference for contact on meshes: the nearest point of all triangles and inside or outside, by a uniform grid.
  * Shares no code and no formula with the library: each triangle is laid into its own plane and measured there.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_TEST_ORACLE_H
@@ -19,9 +19,9 @@ typedef struct oracle {
     double low[3];
     double cell;
     int64_t cells[3];
-    uint32_t *starts; /**< of each cell: where its triangles begin */
+    uint32_t *starts; /**< of each cell: start of its triangles */
     uint32_t *members;
-    uint32_t *stamps; /**< of each triangle: the last query that looked at it */
+    uint32_t *stamps; /**< of each triangle: the last query that tested it */
     uint32_t query;
 } oracle;
 
@@ -49,7 +49,7 @@ static inline double flat_segment2(const double from[2], const double to[2], dou
     return dx * dx + dy * dy;
 }
 
-/** Squared distance of a point to one triangle, or to its plane where that is above `limit`. */
+/** Squared distance of a point to one triangle, or to its plane if that is above `limit`. */
 static inline double flat_distance2(const flat *f, const double p[3], double limit) {
     double offset[3];
     add3(p, -1.0, f->origin, offset);
@@ -72,7 +72,7 @@ static inline double flat_distance2(const flat *f, const double p[3], double lim
     return least + z * z;
 }
 
-/** Whether the line through p along z goes through a triangle above p. */
+/** 1 if the line through p along z crosses a triangle above p. */
 static inline int flat_above(const flat *f, const double p[3]) {
     const double nz = f->axes[2][2];
     double offset[3];
@@ -164,7 +164,7 @@ static inline oracle oracle_make(const shape *s) {
     }
     o.members = calloc(o.starts[cells] + 1, sizeof *o.members);
     const uint32_t total = o.starts[cells];
-    oracle_enter(&o, s); /* each start moves down its own run: starts[i + 1] is then where cell i begins */
+    oracle_enter(&o, s); /* each start moves down its run: starts[i + 1] is then the start of cell i */
     memmove(o.starts, o.starts + 1, cells * sizeof *o.starts);
     o.starts[cells] = total;
     return o;
@@ -201,7 +201,7 @@ static inline double oracle_look(oracle *o, size_t cell, const double p[3], doub
     return best2;
 }
 
-/** m to the nearest triangle: of all cells within a radius that grows until it holds what was found. */
+/** m to the nearest triangle: of all cells within a radius that grows until it includes the result. */
 static inline double oracle_distance(oracle *o, const double p[3]) {
     int64_t low[3], high[3], at[3];
     for (int axis = 0; axis < 3; axis++) {

@@ -54,7 +54,7 @@ static void compare(shape *s, const char *name, double size, int64_t queries, ui
     probe_free(&p);
 }
 
-/* The environment asks for the long version: KNURL_LONG=10 makes ten times as many queries. */
+/* KNURL_LONG=10 in the environment makes ten times as many queries. */
 static int64_t times(int64_t queries) {
     const char *longer = getenv("KNURL_LONG");
     return queries * (longer ? strtol(longer, NULL, 10) : 1) / (SUITE_SANITIZED ? 10 : 1);

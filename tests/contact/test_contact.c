@@ -136,7 +136,7 @@ TEST(first_tick_may_be_pressed_in_up_to_the_capture_depth) {
         probe *p = &probes[i];
         assert_true(probe_to(p, 0.01, 0.005, -0.999 * KNURL_CAPTURE_DEPTH));
         CHECK_HELD(p, 0.01, 0.005, 0.0, 0.0, 0.0, 1.0, 0.999 * KNURL_CAPTURE_DEPTH);
-        assert_true(probe_to(p, 0.01, 0.005, -2.0 * KNURL_CAPTURE_DEPTH)); /* once held, as deep as it goes */
+        assert_true(probe_to(p, 0.01, 0.005, -2.0 * KNURL_CAPTURE_DEPTH)); /* once held, at any depth */
         probe_forget(p);
         assert_false(probe_to(p, 0.01, 0.005, -1.001 * KNURL_CAPTURE_DEPTH));
         assert_false(probe_to(p, 0.01, 0.005, -0.5 * KNURL_CAPTURE_DEPTH)); /* no first tick any more */
@@ -161,7 +161,7 @@ TEST(first_tick_behind_a_double_sided_plane_is_behind_it) {
     assert_false(probe_to(&p, 0.01, 0.005, -0.0011));
 }
 
-/* A HIP whose positions are multiples of an encoder's count stands exactly on the surface now and then. */
+/* A HIP whose positions are multiples of an encoder's count is exactly on the surface now and then. */
 static void check_exact_touchdown(probe *p, int side) {
     p->query.double_sided = side < 0;
     probe_forget(p);
@@ -170,7 +170,7 @@ static void check_exact_touchdown(probe *p, int side) {
     assert_true(probe_to(p, 0.01, 0.0, -0.001 * side)); /* on through it */
     CHECK_HELD(p, 0.01, 0.0, 0.0, 0.0, 0.0, side, 0.001);
     (void)probe_to(p, 0.01, 0.0, 0.0);
-    assert_false(probe_to(p, 0.01, 0.0, 0.001 * side)); /* and off again the way it came */
+    assert_false(probe_to(p, 0.01, 0.0, 0.001 * side)); /* and off again on the same side */
     (void)probe_to(p, 0.01, 0.0, 0.0);
     assert_false(probe_to(p, 0.01, 0.0, 0.001 * side)); /* touched and lifted */
 }

@@ -1,4 +1,4 @@
-/* The facet that is kept while a HIP stays above one triangle: it saves work, and changes no bit of what is felt.
+/* The facet cached while a HIP stays above one triangle: it saves work, and the results are identical to the bit.
  * SPDX-License-Identifier: MIT */
 #include "contact/facet.h"
 #include "contact/mesh_frame.h"

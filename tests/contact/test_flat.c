@@ -1,5 +1,5 @@
-/* Which meshes come to planes with an outline, which stay meshes and why. Outlines against what was drawn.
- * SPDX-License-Identifier: MIT */
+/* Meshes that become planes with an outline, and meshes that stay meshes, with the reason. Outlines against the drawn
+ * ones. SPDX-License-Identifier: MIT */
 #include "flat_outcome.h"
 
 TEST(rectangular_sheet_becomes_a_rectangle_about_its_middle) {
@@ -178,7 +178,7 @@ TEST(sheet_of_reversed_twins_is_double_sided) {
     assert_int_equal(o.plane->reversed_twins, 12);
     assert_int_equal(o.plane->dropped, 1);
     assert_int_equal(o.plane->double_sided, 1);
-    CHECK_CLOSE(o.rotation[8], 1.0, 1e-12); /* the first triangle says where the front is */
+    CHECK_CLOSE(o.rotation[8], 1.0, 1e-12); /* the first triangle determines the front */
     forget(&o);
 }
 
@@ -310,7 +310,7 @@ TEST(overlapping_triangles_stay_a_mesh) {
 }
 
 /* A strip whose upper side is bowed by `bow` m: more corners than an outline may have, most of them next to a straight
- * line. What is left of them is as near to all of them as is said. */
+ * line. The remaining ones are within the stated distance of all. */
 static void check_bowed(double bow) {
     SCOPED_SHAPE s = shape_sheet(200, 1, (const double[2]){0.05, 0.01}, NULL);
     for (uint32_t v = 201; v < 402; v++) {
@@ -338,7 +338,7 @@ TEST(corners_next_to_a_straight_line_are_left_out_and_told) {
     check_bowed(-3e-5);
 }
 
-/* Two of four corners stand next to each other: what they bound is next to a triangle, and no rectangle. */
+/* Two of four corners are neighbours within a tiny distance: the shape is almost a triangle, not a rectangle. */
 TEST(triangle_with_a_corner_cut_off_is_no_rectangle) {
     SCOPED_SHAPE s = shape_new(4, 6, 1);
     const double places[4][2] = {{0.0, 0.0}, {0.5, 0.0}, {0.5, 0.5 - 0.9e-6}, {0.5 - 0.9e-6, 0.5}};
@@ -357,8 +357,8 @@ TEST(triangle_with_a_corner_cut_off_is_no_rectangle) {
     forget(&o);
 }
 
-/* A ring cut open whose turns lie upon each other: every edge has at most one neighbour, and the area of the triangles
- * is what the outline goes round, counted with its sign. */
+/* A ring cut open whose turns overlap: every edge has at most one neighbour, and the area of the triangles
+ * equals the signed area of the outline. */
 TEST(spiral_that_passes_over_itself_stays_a_mesh) {
     const uint32_t steps = 30; /* of 24 that make a turn */
     shape s = shape_new(2 * (steps + 1), 6 * steps, 1);

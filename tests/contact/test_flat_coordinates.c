@@ -62,7 +62,7 @@ TEST(axis_along_the_normal_keeps_a_mesh) {
     check_stays(&s, upright, "mesh: its x direction is perpendicular to it", __LINE__);
 }
 
-/* A sheet that faces away from y = 0.6 z: nearest to -z, from where u runs along -x and v along y. */
+/* A sheet that faces away from y = 0.6 z: nearest to -z, from which u runs along -x and v along y. */
 TEST(without_axis_tangents_and_uvs_coordinates_are_projected_along_the_nearest_axis) {
     SCOPED_SHAPE s = DRAWING("####", "####");
     free(s.uvs);

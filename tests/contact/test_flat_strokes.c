@@ -1,4 +1,4 @@
-/* Strokes over flat meshes as planes and as meshes: the same contacts, to within what floats leave.
+/* Strokes over flat meshes as planes and as meshes: the same contacts, within float rounding.
  * SPDX-License-Identifier: MIT */
 #include "contact/plane_hold.h"
 #include "support/flat.h"
@@ -72,7 +72,7 @@ static void check_same(const pair *p) {
     }
 }
 
-/* 1 where rounding may decide: the HIP, or where it goes through the plane, is on the outline, or it is in the plane.
+/* 1 if rounding may decide: the HIP, or its crossing of the plane, is on the outline, or it is in the plane.
  */
 static int is_close_call(const pair *p, const double from[3], const double to[3]) {
     double through[3];
@@ -253,7 +253,7 @@ TEST(sheet_with_t_junctions_is_felt_as_its_mesh) {
     check_all_strokes(&desc, NULL, 150);
 }
 
-/* The whole lattice that the corners stand on, and halves of it: rays run through corners and along edges. */
+/* The whole lattice of the corners, and halves of it: rays run through corners and along edges. */
 TEST(points_in_line_with_corners_are_counted_once) {
     SCOPED_SHAPE s = drawn();
     const knurl_mesh_desc desc = shape_desc(&s);

@@ -1,4 +1,4 @@
-/* Square grooves as true geometry, and walls thinner than a tick's way: what a proxy must not do is lock, nor let
+/* Square grooves as true geometry, and walls thinner than a tick's distance: a proxy must neither lock nor pass
  * through. SPDX-License-Identifier: MIT */
 #include "contact/bodies.h"
 #include "support/probe.h"
@@ -78,7 +78,7 @@ TEST(fast_strokes_do_not_get_through_a_thin_wall) {
         way[2] = -front * 0.002;
         probe_forget(&p);
         assert_false(probe_at(&p, hip));
-        for (int tick = 0; tick < 3; tick++) { /* through it and 5 mm beyond: the front holds all the way */
+        for (int tick = 0; tick < 3; tick++) { /* through it and 5 mm beyond: the front holds along all of it */
             add3(hip, 1.0, way, hip);
             const double depth = half[2] - front * hip[2];
             if (depth > 1e-6) {
@@ -138,7 +138,7 @@ TEST(valley_above_another_floor_keeps_its_hip) {
         assert_true(probe_to(&p, 1e-4, 0.0, -0.0052 - 4e-5 * k));
         assert_true(p.contact.proxy[2] > -0.0051);
     }
-    for (int k = 0; k <= 100; k++) { /* and askew, where the corner's facets look well away */
+    for (int k = 0; k <= 100; k++) { /* and askew, at which the corner's facets face away */
         assert_true(probe_to(&p, 1e-4 + 3e-5 * k, 0.0, -0.0085));
         assert_true(p.contact.proxy[2] > -0.0051);
     }

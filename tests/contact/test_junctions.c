@@ -27,7 +27,7 @@ static void stroke_over(probe *p, double depth) {
 
 static const double half[2] = {0.02, 0.02};
 
-/* Below (way -1) or above the sheet a fin stands on an edge of its middle, facing one way or the other. */
+/* A fin on an edge in the middle of a sheet, below (way -1) or above, facing either side. */
 TEST(three_sheets_on_one_edge_hold_on) {
     for (int way = -1; way <= 1; way += 2) {
         for (int turned = 0; turned < 2; turned++) {
@@ -52,7 +52,7 @@ TEST(three_sheets_on_one_edge_hold_on) {
     }
 }
 
-/* The sheet in two halves that touch in one vertex only, and a cone that stands on that vertex. */
+/* The sheet in two halves that touch in one vertex only, and a cone with its tip at that vertex. */
 TEST(bow_ties_hold_on) {
     shape sheet = shape_sheet(8, 8, half, NULL);
     shape cone = shape_new(9, 24, 0);
@@ -84,7 +84,7 @@ TEST(double_layers_hold_across_every_border) {
     }
 }
 
-/* Whichever way each triangle faces, swinging gets round every vertex, over the rim's as well. */
+/* With any facing of triangles, walking around a vertex reaches all of its triangles, also at the rim. */
 TEST(triangles_turned_at_random_hang_together) {
     uint64_t seed = 9;
     shape sheet = shape_sheet(20, 20, half, NULL);
@@ -99,7 +99,7 @@ TEST(triangles_turned_at_random_hang_together) {
     probe_free(&p);
 }
 
-/* A double-sided surface has no inside: what is first seen behind it is behind it. */
+/* A double-sided surface has no inside: a HIP first seen behind it is behind it. */
 TEST(first_tick_behind_a_double_sided_sheet_is_behind) {
     shape sheet = shape_sheet(8, 8, half, NULL);
     probe p = probe_shape(&sheet);

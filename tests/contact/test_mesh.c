@@ -1,5 +1,5 @@
-/* Meshes made from a caller's arrays: what is refused, the hierarchy over them, and its two questions against brute
- * force. SPDX-License-Identifier: MIT */
+/* Meshes from a caller's arrays: errors, the hierarchy over them, and its two queries against brute force.
+ * SPDX-License-Identifier: MIT */
 #include "support/probe.h"
 
 #include "contact/bvh.h"
@@ -12,7 +12,7 @@ static void check_box(const knurl_bvh_node *inner, const float min[3], const flo
     }
 }
 
-/* Counts each leaf's triangles and checks that they stand in its box; returns the depth below a node. */
+/* Counts each leaf's triangles and checks that they are in its box; returns the depth below a node. */
 static uint32_t check_node(const knurl_mesh *mesh, uint32_t index, uint8_t *seen, uint32_t *nodes) {
     const knurl_bvh_node *node = &mesh->nodes[index];
     assert_true(index < mesh->node_count);
@@ -28,7 +28,7 @@ static uint32_t check_node(const knurl_mesh *mesh, uint32_t index, uint8_t *seen
         }
         return depth + 1;
     }
-    assert_in_range(node->count, 1, 8); /* a handful: what a walk has to look at stays bounded */
+    assert_in_range(node->count, 1, 8); /* a handful: the work of a walk is bounded */
     for (uint32_t i = node->first; i < node->first + node->count; i++) {
         assert_true(i < mesh->triangle_count);
         seen[i]++;
@@ -54,7 +54,7 @@ static void check_hierarchy(const knurl_mesh *mesh) {
     free(seen);
 }
 
-/* Where the corners of all triangles are, so that the order of a leaf, and how vertices are numbered, does not matter.
+/* A sum over the corners of all triangles, independent of the order in a leaf and the numbering of vertices.
  */
 static uint64_t sum_of_corners(const float *positions, const uint32_t *indices, size_t count) {
     uint64_t sum = 0;
@@ -135,7 +135,7 @@ TEST(hierarchy_of_ever_smaller_triangles_keeps_its_depth) {
     probe_free(&p);
 }
 
-/* Flat but for what is left of a sum that should have been 0: extents whose inverse no float holds. */
+/* Flat except for rounding errors: extents whose inverse overflows a float. */
 TEST(hierarchy_of_subnormal_noise_is_sound) {
     shape sheet = shape_sheet(20, 20, (const double[2]){0.05, 0.05}, NULL);
     uint64_t seed = 1;
@@ -169,7 +169,7 @@ static void compare_closest(shape *s, uint64_t seed, int points) {
         knurl_triangle triangle;
         double again[3] = {0.0, 0.0, 0.0};
         knurl_mesh_triangle(p.mesh, found.triangle, &triangle);
-        for (uint32_t i = 0; i < 3; i++) { /* weights and triangle tell the same point */
+        for (uint32_t i = 0; i < 3; i++) { /* weights and triangle give the same point */
             add3(again, found.weights[i], triangle.corners[i], again);
         }
         CHECK_CLOSE(distance3(again, found.proxy), 0.0, 1e-12);
@@ -192,7 +192,7 @@ TEST(closest_point_matches_brute_force) {
     compare_closest(&sheet, 221, 1500);
 }
 
-/* The first of all crossings, by brute force; 0 where one is too close to an edge or an end to call. */
+/* The first of all crossings, by brute force; 0 if one is too close to an edge or an end to decide. */
 static int first_crossing(const shape *s, const double a[3], const double b[3], int double_sided, crossing *first) {
     first->side = 0;
     first->s = 2.0;
@@ -322,7 +322,7 @@ TEST(triangles_thinner_than_a_millionth_of_their_longest_edge_are_dropped) {
     }
 }
 
-/* A corner of a sheet that many small triangles lie over is found although nothing else is crowded. */
+/* A corner of a sheet covered by many small triangles is found, although the rest is not crowded. */
 TEST(visits_are_exceeded_where_triangles_crowd) {
     static const double half[2] = {0.05, 0.05};
     for (int is_crowded = 0; is_crowded < 2; is_crowded++) {

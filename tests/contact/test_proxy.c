@@ -1,9 +1,9 @@
-/* The proxy on meshes: what is pressed is held, what has left is free, and the normal and depth are the shape's.
+/* The proxy on meshes: a pressed HIP is held, one that has left is free, and normal and depth are the shape's.
  * SPDX-License-Identifier: MIT */
 #include "contact/bodies.h"
 #include "support/probe.h"
 
-/* How far the facets of a sphere lie below it, and how far their edges stand from the foot of their normals. */
+/* The depth of a sphere's facets below it, and the distance of their edges from the foot of their normals. */
 static void measure_facets(const shape *s, double radius, double *sagitta, double *half_width) {
     *sagitta = *half_width = 0.0;
     for (uint32_t i = 0; i < s->index_count / 3; i++) {
@@ -67,7 +67,7 @@ TEST(hip_pressed_through_a_thin_wall_is_held_at_its_front) {
     probe_free(&p);
 }
 
-/* The next place of a walk: at random, but outwards again where the contact is deeper than `depth`, as a hand is pushed
+/* The next position of a walk: random, but outwards if the contact is deeper than `depth`, as a hand is pushed
  * (the proxy stays at the wall it was pressed into, so without a force it could be led through the body). */
 static void next_place(const probe *p, int held, double depth, double step, const double drift[3], uint64_t *seed,
                        double to[3]) {
@@ -80,8 +80,8 @@ static void next_place(const probe *p, int held, double depth, double step, cons
     }
 }
 
-/* A walk near a shape, up to `height` outside and pressed `depth` in, steps up to `step`. In every tick contact inside
- * has to agree with the signed distance, but where that is within `bound` of 0. A distance of HUGE_VAL keeps it out. */
+/* A walk near a shape, up to `height` outside and pressed `depth` in, steps up to `step`. In every tick contact must
+ * agree with the sign of the distance, unless that is within `bound` of 0. A distance of HUGE_VAL: keep out. */
 static void walk_near(probe *p, double (*distance)(const double[3]), const double start[3], double depth, double height,
                       double step, double bound, int ticks, uint64_t seed) {
     double drift[3];
@@ -299,7 +299,8 @@ TEST(curved_double_sided_sheet_holds_on_both_sides) {
             assert_true(probe_to(&p, x, 0.0003, z));
             assert_true(p.contact.z < 0.0);
             assert_true(p.contact.normal[2] * side > 0.0);
-            if (side > 0 ? fabs(x) > 0.001 : x < 0.0) { /* else the V's edge holds it, or still the wall it came by */
+            if (side > 0 ? fabs(x) > 0.001
+                         : x < 0.0) { /* otherwise the V's edge holds it, or still the wall that it came along */
                 CHECK_CLOSE(-p.contact.z, 0.001, 1e-8);
             }
         }

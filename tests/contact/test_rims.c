@@ -1,4 +1,4 @@
-/* Where a mesh ends, does not quite fit together, or comes to a point. SPDX-License-Identifier: MIT */
+/* Rims, gaps and tips of meshes. SPDX-License-Identifier: MIT */
 #include "support/probe.h"
 
 #define PI 3.14159265358979323846
@@ -96,7 +96,7 @@ TEST(tip_of_a_spike_is_reached_from_all_round) {
     memcpy(&spike.indices[at + 6], (const uint32_t[3]){1, SLIVERS + 2, SLIVERS + 1}, 3 * sizeof(uint32_t));
     probe p = probe_shape(&spike);
     p.query.reach = 0.001;
-    for (int k = 0; k < 360; k++) { /* as far down as the tip is still what is nearest, all round */
+    for (int k = 0; k < 360; k++) { /* as far down as the tip is still the nearest point, all around */
         const double up = 0.14;     /* the faces lean by 0.067, the edges by 0.13 */
         const double hip[3] = {0.0005 * cos(PI * k / 180.0), 0.0005 * sin(PI * k / 180.0), 0.0005 * up};
         const double distance = length3(hip);

@@ -1,4 +1,4 @@
-/* Strokes over rough meshes: out of one ridge into the next, through all of it in one tick. What is inside is held.
+/* Strokes over rough meshes: out of one ridge into the next, through all of it in one tick. A HIP inside is held.
  * SPDX-License-Identifier: MIT */
 #include "support/probe.h"
 
@@ -133,9 +133,8 @@ static double teeth_height(double x, double y) {
     return teeth_amplitude * (1.0 - 2.0 * fabs(2.0 * phase - 1.0));
 }
 
-/* Dragged over teeth with a hand that shakes a little: out of one tooth through the air into the next, at last within
- * one tick. What is in a tooth has to be held. (In the air between, the tooth before may still hold it: it is a thin
- * wall.) */
+/* Dragged over teeth with a hand that shakes a little: out of one tooth through the air into the next, finally within
+ * one tick. A HIP in a tooth must be held. (In between, the previous tooth may still hold it: it is a thin wall.) */
 static void drag_over_teeth(probe *p, double step, uint64_t seed) {
     double z = 0.0;
     probe_forget(p);
@@ -166,7 +165,8 @@ TEST(strokes_over_teeth_never_lose_the_tooth_they_are_in) {
     }
 }
 
-/* Two sheets of one mesh, 1 mm apart: what lifts off the lower one is behind the upper one, but not through it. */
+/* Two sheets of one mesh, 1 mm apart: a HIP that lifts off the lower one is behind the upper one, but did not pass it.
+ */
 TEST(sheet_behind_which_the_hip_lifts_off_does_not_hold_it) {
     const double half[2] = {0.03, 0.03};
     shape sheet = shape_sheet(10, 10, half, NULL);

@@ -1,6 +1,6 @@
-/* `knurl run --stroke sweep` over every mesh of the demo's assets, the usual primitives and the moon: how far the hand
- * moves in contact, and how many half cycles it feels. What is expected is computed from the rows of the CSV and the
- * shapes' own formulas: 2 fs times the metres along x. SPDX-License-Identifier: MIT */
+/* `knurl run --stroke sweep` over every mesh of the demo's assets, the usual primitives and the moon: the distance in
+ * contact, and the number of half cycles. Expected values come from the rows of the CSV and the shapes' formulas: 2 fs
+ * times the metres along x. SPDX-License-Identifier: MIT */
 #include "contact/moon.h"
 #include "support/tool.h"
 
@@ -11,16 +11,16 @@ static const char plate[] = KNURL_TEST_ASSETS "/plate_1d.glb";
 
 #define TAG "{\"knurl\":{\"version\":1,\"spatial_frequency\":[700,0],\"amplitude\":0.0002,\"stiffness\":400%s}}"
 
-/* Where on a grating a point is, m along its x; null: the way is all along x. */
+/* A point's coordinate on a grating, m along its x; null: the path is along x. */
 typedef double (*coordinate)(const double p[3], const void *of);
 
-/* --- shapes: what turns round an axis, u round it, v along its profile --- */
+/* --- shapes: surfaces of revolution, u around the axis, v along the profile --- */
 
 typedef struct turned {
     double profile[64][2]; /* radius and height, from below upwards outside */
     uint32_t count;
     int lying;         /* 1: its axis is x; 0: y */
-    int inwards;       /* 1: its faces look at the axis */
+    int inwards;       /* 1: its faces point at the axis */
     uint32_t segments; /* round the axis; 0: SEGMENTS */
     double around;     /* m of x in a turn: the area-weighted mean of the circumference */
 } turned;
@@ -158,7 +158,7 @@ static const char *write_shape(const shape *s, const char *more) {
 
 /* --- runs --- */
 
-/* What a hand did, as its positions in the CSV say. */
+/* A hand's motion, from its positions in the CSV. */
 typedef struct way {
     double metres;  /* in contact, by chords of 20 ms, so that an encoder's steps do not add to it */
     double along_x; /* m of the grating's coordinate */
@@ -243,7 +243,7 @@ TEST(a_sphere_is_felt) {
     check_turned("sphere", &t);
 }
 
-/* The sweep begins on the pole, where so many triangles meet in one vertex that a tick cannot look at all of them. */
+/* The sweep begins on the pole, at a vertex with more triangles than a tick can test. */
 TEST(a_sphere_is_felt_however_many_triangles_meet_at_its_pole) {
     static const uint32_t segments[3] = {384, 512, 1024};
     for (size_t i = 0; i < COUNT_OF(segments); i++) {
@@ -297,7 +297,7 @@ TEST(a_dome_is_felt) {
     check_turned("dome", &t);
 }
 
-/* Its faces look inwards: it is felt from the inside, as a bowl. */
+/* Its faces point inwards: it is felt from the inside, like a bowl. */
 TEST(a_sphere_that_is_inside_out_is_felt_from_inside) {
     turned t = {.count = 0, .inwards = 1};
     add_arc(&t, 0.0, 0.0, 0.03, -0.5 * PI, 0.5 * PI);
@@ -309,7 +309,7 @@ TEST(a_bent_sheet_is_felt) {
     check_sweep("bent sheet", write_shape(&s, ""), NULL, FS, angle_of_sheet, NULL, 0.0);
 }
 
-/* By an axis: ridges stand where planes across it would cut the surface. */
+/* By an axis: ridges are the intersections of the surface with planes across it. */
 TEST(a_sphere_by_an_axis_is_felt) {
     turned t = {.count = 0};
     add_arc(&t, 0.0, 0.0, 0.03, -0.5 * PI, 0.5 * PI);
@@ -346,7 +346,7 @@ TEST(a_circle_stays_on_a_curved_surface) {
 static void check_nothing_felt(process *p, const char *why) {
     assert_int_equal(p->exit_code, 4);
     assert_non_null(strstr(p->err, why));
-    assert_non_null(strstr(p->out, "\"half_cycles_played\": 0,")); /* the summary is told all the same */
+    assert_non_null(strstr(p->out, "\"half_cycles_played\": 0,")); /* the summary is still printed */
     process_free(p);
 }
 

@@ -54,7 +54,7 @@ static double edges_distance(const triangle *a, int opposite, const triangle *b)
     return least;
 }
 
-/* 1 if a plane across an axis lies between them. */
+/* 1 if a plane across an axis separates them. */
 static int are_apart(const triangle *a, const triangle *b, double seam) {
     int apart = 0;
     for (int axis = 0; axis < 3; axis++) {
@@ -112,7 +112,7 @@ static uint32_t check_count(shape *s) {
             expected += (uint32_t)do_touch(&all[i], &all[j], p.mesh->seam);
         }
     }
-    assert_true(expected < 4 * count); /* where counting stops */
+    assert_true(expected < 4 * count); /* below the limit of counting */
     assert_int_equal(knurl_mesh_count_touching(p.mesh), expected);
     assert_int_equal(p.mesh->touching, expected);
     free(all);
@@ -203,7 +203,7 @@ TEST(a_gap_is_touched_across_up_to_the_seam) {
     assert_true(counts[0] > 100);
 }
 
-/* 1e-7 m, or a millionth of the size, and what positions are rounded by. */
+/* 1e-7 m, or a millionth of the size, and the rounding of positions. */
 TEST(the_seam_grows_with_the_size_and_with_the_distance_from_the_origin) {
     static const double sizes[][2] = {{0.01, 0.0}, {0.1, 0.0}, {3.0, 0.0}, {0.1, 50.0}, {5.0, -1000.0}};
     for (size_t i = 0; i < COUNT_OF(sizes); i++) {

@@ -1,7 +1,7 @@
-/* HIPs pressed into bodies and dragged over them, held against the oracle tick by tick: no contact is missed, the proxy
- * lies on the mesh and is the nearest point of its neighbourhood, and how much further it may be than the nearest of
- * all. A proxy is local on purpose: the nearest point of all jumps from the front of a thin wall to its back, and over
- * an edge to the face that is nearer, whichever the HIP came in by. SPDX-License-Identifier: MIT */
+/* HIPs pressed into bodies and dragged over them, compared with the oracle tick by tick: no contact is missed, the
+ * proxy is on the mesh and the nearest point of its neighbourhood, and within a factor of the globally nearest point. A
+ * proxy is local on purpose: the globally nearest point jumps from the front of a thin wall to its back, and over an
+ * edge to the nearer face, independent of the face by which the HIP entered. SPDX-License-Identifier: MIT */
 #include "contact/moon.h"
 #include "contact/oracle.h"
 #include "support/probe.h"
@@ -10,11 +10,11 @@ static int64_t total_ticks;
 
 typedef struct outcome {
     int64_t ticks, held, further;
-    double worst_ratio;  /* of the depth to the oracle's, where that is 0.1 mm or more */
+    double worst_ratio;  /* of the depth to the oracle's, if that is 0.1 mm or more */
     double worst_excess; /* of the depth over the oracle's, m */
 } outcome;
 
-/* What has to hold in any tick with contact, on any mesh. */
+/* Checks for any tick with contact, on any mesh. */
 static void check_proxy(const probe *p, oracle *o, outcome *out) {
     const double distance = distance3(p->contact.proxy, p->query.hip);
     const double depth = -p->contact.z;
@@ -39,7 +39,7 @@ static void say(const char *what, const outcome *out) {
     total_ticks += out->ticks;
 }
 
-/* At random over a closed body from outside, pushed outwards where deeper than `depth`. */
+/* At random over a closed body from outside, pushed outwards if deeper than `depth`. */
 static outcome wander(shape *s, const double start[3], double depth, double step, int ticks, uint64_t seed) {
     shape copy = body_copy(s);
     oracle o = oracle_make(&copy);
@@ -151,7 +151,7 @@ static outcome scan(shape *s, double reach, double press, double speed, int tick
     oracle o = oracle_make(&copy);
     probe p = probe_shape(s);
     outcome out = {ticks, 0, 0, 0.0, 0.0};
-    double x = -reach + 1e-7 * PI; /* on no edge, where an oracle's triangles may both decline */
+    double x = -reach + 1e-7 * PI; /* not on an edge, which both of an oracle's triangles may reject */
     double way = speed * 0.001;
     (void)probe_to(&p, x, -0.01, height_at(&o, x, -0.01) + 0.0005);
     for (int k = 0; k < ticks; k++) {
@@ -174,7 +174,7 @@ static const double speeds[] = {0.049, 0.099, 0.247, 2.0}; /* m/s */
 TEST(strokes_on_wavy_sheets_are_held_at_their_depth) {
     static const uint32_t sizes[] = {22, 71, 224};
     /* A facet holds until the HIP's foot passes its edge; the next one, turned by t, is then nearer by cos t. Turns are
-     * the edges' 9, 2.8 and 0.9 mm times curvatures up to 206/m: 1 / cos t, and for the coarsest what was found. */
+     * the edges' 9, 2.8 and 0.9 mm times curvatures up to 206/m: 1 / cos t, and for the coarsest the measured value. */
     static const double bounds[] = {1.5, 1.2, 1.02};
     for (size_t m = 0; m < COUNT_OF(sizes); m++) {
         for (size_t i = 0; i < COUNT_OF(speeds); i++) {

@@ -32,7 +32,7 @@ static void set_place(knurl_scene *scene, knurl_surface_id surface, double x, do
     assert_int_equal(knurl_scene_set_transform(scene, surface, position, UPRIGHT, 0.0), KNURL_OK);
 }
 
-/* Presses HIP 0 from above to z at (x, 0): what a tick says then. */
+/* Presses HIP 0 from above to z at (x, 0). Returns the last tick. */
 static knurl_tick_output press(knurl_scene *scene, double x, double z) {
     (void)tick_at(scene, x, 0.0, 0.05);
     return tick_at(scene, x, 0.0, z);

@@ -1,4 +1,4 @@
-/* A device that stands in a wall, a scene with that wall, and a loop of both. SPDX-License-Identifier: MIT */
+/* A device inside a wall, a scene with that wall, and a loop of both. SPDX-License-Identifier: MIT */
 #ifndef KNURL_TEST_IN_USE_H
 #define KNURL_TEST_IN_USE_H
 
@@ -9,7 +9,7 @@
 
 #include <pthread.h>
 
-/* A device, a scene in whose wall that device stands, and a loop. */
+/* A device, a scene with a wall around its position, and a loop. */
 typedef struct set {
     home home;
     ledger books;
@@ -18,7 +18,7 @@ typedef struct set {
     knurl_loop *loop;
 } set;
 
-static set s; /* set up anew by each test */
+static set s; /* reset by each test */
 
 /* Two HIPs in a wall of 400 N/m, 1 mm deep: 0.4 N. */
 static knurl_scene *wall_scene(ledger *books) {

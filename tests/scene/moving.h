@@ -1,4 +1,4 @@
-/* A HIP that stands still, and a plane that moves under it. SPDX-License-Identifier: MIT */
+/* A HIP at rest, and a plane that moves under it. SPDX-License-Identifier: MIT */
 #ifndef KNURL_TEST_MOVING_H
 #define KNURL_TEST_MOVING_H
 
@@ -23,7 +23,7 @@ static surface_parts wide_plane(void) {
     return parts;
 }
 
-/* HIP 0 stands at a place, and says so. */
+/* A tick of HIP 0 at rest at a position. */
 static knurl_tick_output stand_at(knurl_scene *scene, double x, double y, double z) {
     return tick_moving(scene, (const double[3]){x, y, z}, (const double[3]){0.0, 0.0, 0.0});
 }

@@ -4,7 +4,7 @@
 
 #include "support/scenes.h"
 
-/** A triangle list that grows, each triangle with vertices of its own: where they stand in one place they are welded.
+/** A growing list of triangles with separate vertices: vertices at the same position are welded.
  */
 typedef struct patch {
     shape s;

@@ -1,5 +1,5 @@
-/* Rooms at random, and what is known of them without the library: solids as intersections of half-spaces, so that
- * whether a point is outside of all of them is a question of a few products. SPDX-License-Identifier: MIT */
+/* Random rooms, described without the library: solids are intersections of half-spaces, so that a few products decide
+ * if a point is outside of all of them. SPDX-License-Identifier: MIT */
 #ifndef KNURL_TEST_ROOMS_H
 #define KNURL_TEST_ROOMS_H
 
@@ -34,10 +34,10 @@ enum { ROOM_MESHES, ROOM_ONE_MESH, ROOM_PLANES, ROOM_MIXED, ROOM_FORMS };
 typedef struct room {
     solid solids[ROOM_SOLIDS];
     int count;
-    double low[3], high[3]; /**< where a HIP may go, m */
+    double low[3], high[3]; /**< bounds for a HIP, m */
 } room;
 
-/** What a room's surfaces are at rest, in the scene's order. */
+/** A room's surfaces at rest, in the scene's order. */
 #define LAID_MAX 128
 typedef struct laid {
     pose poses[LAID_MAX];
@@ -79,8 +79,8 @@ static inline void face_finish(face *f) {
     f->offset = dot3(f->normal, f->corners[0]);
 }
 
-/** A prism: a quad (counter-clockwise from above) from one height to another; turned about z, set down at (x, y). As
- * floats are what the library is given, the corners are floats. */
+/** A prism: a quad (counter-clockwise from above) from one height to another; turned about z, placed at (x, y). The
+ * corners are floats, because the library gets floats. */
 static inline void add_prism(room *r, const double quad[4][2], double low, double high, const double at[2],
                              double angle) {
     static const int sides[6][4] = {{3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
@@ -216,7 +216,7 @@ static inline room random_room(uint64_t *seed) {
     return r;
 }
 
-/** Cells of a terrain, each way, and their size, m. */
+/** Cells of a terrain along each side, and their size, m. */
 #define TERRAIN_CELLS 6
 #define TERRAIN_CELL  0.012
 
@@ -291,7 +291,7 @@ static inline void put_triangle(triangles *t, const double *a, const double *b, 
     }
 }
 
-/** A triangle, one of whose edges is split where no neighbour's is, as often as `splits` says. */
+/** A triangle, one of whose edges is split without splitting its neighbour's, with a frequency of `splits`. */
 static inline void put_split(triangles *t, uint64_t *seed, int splits, const double *a, const double *b,
                              const double *c) {
     if (splits == 0) {
@@ -343,7 +343,7 @@ static inline void put_mesh(laid *l, knurl_scene *scene, triangles *t, const knu
     shape_free(&t->s);
 }
 
-/** A rectangle as a plane of its own; a face that is none as a mesh. */
+/** A rectangle as a separate plane; any other face as a mesh. */
 static inline void put_plane(laid *l, knurl_scene *scene, uint64_t *seed, const face *f,
                              const knurl_material_desc *material, int moves) {
     double along[3], across[3];

@@ -17,7 +17,7 @@ typedef struct smooth_patch {
     smooth_form *form;
     double low[2], high[2];
     uint32_t wraps[2];
-    double scale[2]; /**< m per unit of u and v, about: which way a quad is long */
+    double scale[2]; /**< m per unit of u and v, approximately: the proportions of a quad */
 } smooth_patch;
 
 typedef struct smooth_mesh {
@@ -73,7 +73,7 @@ static inline smooth_mesh smooth_make(const smooth_patch *p, uint32_t triangles)
     const double wide = (p->high[0] - p->low[0]) * p->scale[0], high = (p->high[1] - p->low[1]) * p->scale[1];
     const uint32_t nu = (uint32_t)lrint(fmax(4.0, sqrt(0.5 * triangles * wide / high)));
     const uint32_t nv = (uint32_t)lrint(fmax(3.0, 0.5 * triangles / nu));
-    const uint32_t columns = nu + 1, rows = nv + 1; /* a seam of the uvs where it wraps */
+    const uint32_t columns = nu + 1, rows = nv + 1; /* a seam of the uvs if it wraps */
     smooth_mesh m = {shape_new(columns * rows, 6 * nu * nv, 1), NULL};
     uint32_t at = 0;
     m.normals = calloc((size_t)columns * rows, 3 * sizeof(float));

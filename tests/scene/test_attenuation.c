@@ -1,5 +1,5 @@
-/* How much of its force a tick sends: what is told, counted and limited is what is left. And a tick that touches
- * nothing. SPDX-License-Identifier: MIT */
+/* Attenuation of a tick's force: the attenuated force is reported, counted and limited. And a tick without contact.
+ * SPDX-License-Identifier: MIT */
 #include "support/scenes.h"
 
 #include "base/vec3.h"
@@ -92,14 +92,14 @@ TEST(a_share_is_of_what_the_device_can_play) {
     assert_int_equal(out.flags & KNURL_TICK_FORCE_LIMIT, 0); /* it was not shortened to that */
 }
 
-/* From none to whole within a tick: 3.3 N within 5 ms is 0.66 N a tick, from what was sent before. */
+/* From zero to full within a tick: 3.3 N within 5 ms is 0.66 N per tick, from the force sent before. */
 TEST(the_slew_limit_is_from_what_was_sent) {
     SCOPED_SCENE *scene = wall(KNURL_PROTECT_ENTRY);
     for (int i = 0; i < 20; i++) {
         (void)tick(scene, -0.008, 0.0, 0);
     }
     CHECK_CLOSE(tick(scene, -0.008, 0.0, 0).force[2], 3.2, 1e-12);
-    CHECK_SAME(tick(scene, -0.008, 1.0, 0).force[2], 0.0L); /* what falls is free */
+    CHECK_SAME(tick(scene, -0.008, 1.0, 0).force[2], 0.0L); /* a falling force is not limited */
     for (int i = 1; i <= 6; i++) {
         CHECK_CLOSE(tick(scene, -0.008, 0.0, 0).force[2], fmin(3.2, 0.66 * i), 1e-12);
     }

@@ -1,5 +1,5 @@
-/* Bad geometry end to end: what is refused changes nothing, what is left out is counted, and what is taken in, however
- * odd, gives a finite force. SPDX-License-Identifier: MIT */
+/* Bad geometry end to end: refused surfaces change nothing, dropped triangles are counted, and accepted ones give a
+ * finite force. SPDX-License-Identifier: MIT */
 #include "support/ledger.h"
 #include "support/poses.h"
 
@@ -9,7 +9,7 @@ static double bent(double x, double y) {
     return 5.0 * x * x - 3.0 * x * y;
 }
 
-/* What was pressed before a bad surface came is pressed as before. */
+/* A refused surface does not change an existing contact. */
 static void check_refused(knurl_scene *scene, surface_parts *bad, const char *word) {
     knurl_surface_id id = 77;
     const uint64_t bytes = knurl_scene_get_bytes(scene);
@@ -57,7 +57,7 @@ TEST(bad_meshes_are_refused_while_ticks_go_on) {
     assert_int_equal(books.blocks, 0);
 }
 
-/* Ticks about a shape, from all over and close to its corners: finite, and never more than K times the depth told. */
+/* Ticks about a shape, from all over and close to its corners: finite, and at most K times the reported depth. */
 static void probe_all_over(knurl_scene *scene, const shape *s, double scale, uint64_t seed) {
     for (int k = 0; k < 4000; k++) {
         double at[3];
@@ -113,7 +113,7 @@ TEST(stray_vertex_far_away_leaves_the_rest_touchable) {
     probe_all_over(scene, &s, 0.05, 6);
 }
 
-/* --- what is left out is counted --- */
+/* --- dropped triangles are counted --- */
 
 static knurl_surface_info info_of(const knurl_scene *scene) {
     knurl_surface_info info;
@@ -122,7 +122,7 @@ static knurl_surface_info info_of(const knurl_scene *scene) {
     return info;
 }
 
-/* The sheet's triangles once more: the same way round, begun at another corner, or reversed. */
+/* The sheet's triangles once more: in the same winding, starting at another corner, or reversed. */
 static shape twice(int reversed, int apart) {
     shape s = shape_sheet(4, 4, (const double[2]){0.05, 0.05}, bent);
     shape d = shape_new(s.vertex_count, 2 * s.index_count, 0);
@@ -177,7 +177,7 @@ TEST(reversed_twins_make_one_sheet_that_is_touched_from_both_sides) {
 /* --- a heap of anything --- */
 
 typedef struct whole {
-    int32_t corner[3]; /* grid points; begun at the least, so that the same triangle is the same numbers */
+    int32_t corner[3]; /* grid points; starting at the smallest, so that equal triangles are equal numbers */
 } whole;
 
 static whole whole_of(const int32_t p[3]) {

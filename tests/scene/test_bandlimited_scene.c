@@ -1,4 +1,4 @@
-/* The method BANDLIMITED through a whole tick: whatever the surface, what is felt is at its coordinates.
+/* The method BANDLIMITED through a whole tick: on every surface, ridges are at its coordinates.
  * SPDX-License-Identifier: MIT */
 #include "support/bandlimited.h"
 #include "support/geometry.h"
@@ -183,7 +183,7 @@ TEST(a_lift_off_leaves_nothing_behind) {
     }
 }
 
-/* A change of material in the middle of a ridge is felt at once; an event that S2 has begun plays to its end. */
+/* A change of material in the middle of a ridge is felt at once; a started event of S2 plays to its end. */
 TEST(another_material_is_felt_in_the_next_tick) {
     for (int change = 20; change < 26; change++) {
         surface_parts parts = grating_on(NULL, KNURL_METHOD_BANDLIMITED);
@@ -223,7 +223,7 @@ TEST(an_event_of_s2_is_played_to_its_end_first) {
     CHECK_CLOSE(sum, 0.0, 1e-12L * A);
 }
 
-/* What slides under a HIP at rest is crossed backwards: 10 ticks a cycle. */
+/* A surface that slides under a HIP at rest is crossed backwards: 10 ticks per cycle. */
 TEST(a_surface_that_slides_under_a_hip_at_rest_is_kept_step_with) {
     static const double upright[4] = {0.0, 0.0, 0.0, 1.0}, way[3] = {0.01, 0.0, 0.0};
     surface_parts parts = grating_on(NULL, KNURL_METHOD_BANDLIMITED);
@@ -251,8 +251,8 @@ static void configure_counted(knurl_scene *scene) {
     assert_int_equal(knurl_scene_configure_hip(scene, 0, &desc), KNURL_OK);
 }
 
-/* At rest near an edge of a surface that is moved in tenths of a count, one count to and fro on some axes. Edges lie
- * across `along`, where the surface's coordinate grows by `steep` a metre. */
+/* At rest near an edge of a surface that is moved in tenths of a count, one count to and fro on some axes. Edges are
+ * across `along`, along which the surface's coordinate grows by `steep` per metre. */
 static void check_flicker(surface_parts *parts, const double along[3], const double normal[3], double steep,
                           uint32_t axes) {
     uint64_t seed = 10;
@@ -318,8 +318,8 @@ TEST(at_rest_on_an_edge_of_a_turned_plane_as_well) {
     check_flicker(&plane, x, normal, 1.0, 7);
 }
 
-/* The middle fifth of the sheet has uvs three times as dense, so that the mean of |dP/du| is 0.8 + 0.2/3, and what is
- * scaled to it grows there by 2.6 a metre. */
+/* The middle fifth of the sheet has uvs three times as dense, so that the mean of |dP/du| is 0.8 + 0.2/3, and
+ * coordinates scaled to it grow there by 2.6 per metre. */
 TEST(at_rest_on_an_edge_of_dense_uvs_as_well) {
     static const double half[2] = {0.05, 0.05};
     static const double x[3] = {1.0, 0.0, 0.0};
@@ -364,7 +364,7 @@ TEST(slowly_from_a_noisy_encoder_few_edges_toggle_twice) {
     }
 }
 
-/* Tangents say which way x runs and nothing says where on it the HIP is: cycles of the distance, from the first touch.
+/* Tangents define the direction of x, but no origin: cycles of the distance, from the first touch.
  */
 TEST(on_a_mesh_with_tangents_alone_the_distance_is_counted) {
     shape curved = curved_sheet();

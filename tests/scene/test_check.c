@@ -1,4 +1,4 @@
-/* Surfaces held against what a device can do: each limit by its equation, and kept where that is asked for.
+/* Surfaces checked against a device's limits: each limit by its equation, and enforced with clamp.
  * SPDX-License-Identifier: MIT */
 #include "support/scenes.h"
 
@@ -147,7 +147,7 @@ TEST(ridges_finer_than_two_position_steps_are_told) {
     assert_int_equal(check_of(&s).exceeded, KNURL_LIMIT_PERIOD);
 }
 
-/* 5000 N/m is felt as 2000 N/m, and 2 mm as the 0.5 mm whose rms is 1 N on it; without clamp as asked for. */
+/* 5000 N/m is felt as 2000 N/m, and 2 mm as the 0.5 mm whose rms is 1 N on it; without clamp unchanged. */
 TEST(clamp_keeps_walls_and_textures_within_their_limits) {
     for (uint32_t clamp = 0; clamp < 2; clamp++) {
         setting s = plain();
@@ -165,7 +165,7 @@ TEST(clamp_keeps_walls_and_textures_within_their_limits) {
         knurl_scene_destroy(scene);
         knurl_surface_check check = check_of(&s);
         CHECK_CLOSE(check.amplitude_limit, 1.0 / k, 1e-12);
-        assert_true((check.exceeded & KNURL_LIMIT_HEAT) != 0); /* what was asked for, or what is left of it */
+        assert_true((check.exceeded & KNURL_LIMIT_HEAT) != 0); /* the requested value, or the clamped one */
     }
 }
 

@@ -1,5 +1,5 @@
-/* Where surfaces meet: a HIP that is pressed into one and slides into the next is held by both, whether the two are
- * planes, meshes or one mesh, and however their edges are split. SPDX-License-Identifier: MIT */
+/* Corners: a HIP that is pressed into one surface and slides into the next is held by both, for planes, meshes or one
+ * mesh, with any split of their edges. SPDX-License-Identifier: MIT */
 #include "scene/patch.h"
 #include "support/geometry.h"
 
@@ -9,7 +9,7 @@
 #define DEPTH 0.001  /* m, how far the HIP is pressed in */
 #define STEP  100e-6 /* m a tick */
 
-/* A parallelogram from `at` along u (in `parts` strips) and v; its front is where u x v points. */
+/* A parallelogram from `at` along u (in `parts` strips) and v; its front is towards u x v. */
 static void add_strips(patch *p, const double at[3], const double u[3], const double v[3], int parts) {
     for (int i = 0; i < parts; i++) {
         double a[3], b[3], c[3], d[3];
@@ -36,7 +36,7 @@ static knurl_scene *scene_with(surface_parts *parts, int count, uint32_t full_mo
     return scene;
 }
 
-/* --- a floor (z = 0, where x > 0) and a wall (x = 0, where z > 0) --- */
+/* --- a floor (z = 0, x > 0) and a wall (x = 0, z > 0) --- */
 
 static surface_parts floor_plane(void) {
     surface_parts parts = surface_plane();
@@ -53,7 +53,7 @@ static surface_parts wall_plane(void) {
     return parts;
 }
 
-/* The wall is left where the floor's edge is: its bottom is one edge, the floor's may be split. */
+/* The wall ends at the floor's edge: its bottom is one edge, the floor's may be split. */
 static shape floor_shape(int parts) {
     patch p = patch_new(2 * (uint32_t)parts);
     add_strips(&p, (const double[3]){0.0, 0.05, 0.0}, (const double[3]){0.0, -0.1, 0.0},
@@ -186,8 +186,8 @@ TEST(a_groove_holds_whose_bottom_edge_is_split_on_one_side) {
     }
 }
 
-/* A steep groove that moves up and across under a HIP at rest: its bottom, where both walls hold the proxy, moves over
- * the place where that was. */
+/* A steep groove that moves up and across under a HIP at rest: its bottom, at which both walls hold the proxy, moves
+ * over the proxy's last position. */
 TEST(a_steep_groove_that_moves_keeps_the_hip_out) {
     const double q[4] = {0.0, 0.0, 0.0, 1.0};
     for (int parts = 1; parts <= 3; parts++) {
@@ -213,7 +213,7 @@ TEST(a_steep_groove_that_moves_keeps_the_hip_out) {
 /* --- edges that touch --- */
 
 /* Two triangles, each a surface of its own, flat and so a plane with an outline, share an edge. The HIP comes straight
- * down onto a point of that edge, where rounding puts the crossing beside either outline. Returns 1 where it is held.
+ * down onto a point of that edge, where rounding puts the crossing outside of both outlines. Returns 1 if it is held.
  */
 static int press_shared_edge(uint64_t *seed) {
     double corners[4][3]; /* the edge runs from the first to the third */
@@ -236,7 +236,7 @@ static int press_shared_edge(uint64_t *seed) {
     for (int i = 0; i < 3; i++) {
         at[i] = corners[0][i] + share * (corners[2][i] - corners[0][i]);
     }
-    at[1] = at[0]; /* the edge runs where x = y */
+    at[1] = at[0]; /* the edge is along x = y */
     const double speed = random_between(seed, 1e-4, 1e-3);
     knurl_tick_output out;
     for (int k = 3; k >= -1; k--) {
@@ -272,7 +272,7 @@ TEST(a_mesh_that_touches_itself_is_reported) {
 
 /* --- steps --- */
 
-/* A floor whose next tile lies `rise` higher, with nothing between the two: what is dragged along steps up. */
+/* A floor whose next tile is `rise` higher, without a wall in between: a dragged HIP steps up. */
 TEST(a_step_up_between_two_surfaces_is_climbed) {
     const double rises[4] = {5e-6, 2e-5, 1e-4, 5e-4};
     for (int i = 0; i < 4; i++) {

@@ -3,7 +3,7 @@
 
 #define K     800.0
 #define DEPTH 0.002 /* m, below the crease */
-#define SEAM  2e-7  /* m: the proxy stands this far off each wall, and higher where they meet */
+#define SEAM  2e-7  /* m: the proxy's distance from each wall, and more at their crease */
 
 enum { ONE_MESH, TWO_MESHES, TWO_FULL_MESHES, TWO_PLANES, CUTS };
 
@@ -78,7 +78,7 @@ TEST(a_crease_holds_by_the_same_force_however_it_is_cut_and_however_sharp_it_is)
     }
 }
 
-/* Walls of different stiffness, nearly parallel: the force stays within what the stiffer one alone would give. */
+/* Walls of different stiffness, nearly parallel: the force is at most that of the stiffer one alone. */
 TEST(a_sharp_crease_of_a_soft_and_a_hard_wall_does_not_push_aside) {
     for (int degrees = 5; degrees < 90; degrees += 5) {
         knurl_scene *scene = crease(TWO_PLANES, degrees * acos(-1.0) / 180.0, 0.25 * K);

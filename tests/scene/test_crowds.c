@@ -11,8 +11,8 @@
 
 static const double sizes[] = {0.002, 0.003, 0.004, 0.005, 0.008}; /* m, of a tile */
 
-/* A floor at z = 0 of square tiles from (0, 0) on, side by side; the one at (column, row) is `odd` higher, and its id
- * told. */
+/* A floor at z = 0 of square tiles from (0, 0) on, side by side; the one at (column, row) is `odd` higher; *id is its
+ * id. */
 static knurl_scene *lay_floor(double size, int column, int row, double odd, knurl_surface_id *odd_id) {
     knurl_scene_desc desc;
     knurl_scene *scene = NULL;
@@ -95,8 +95,8 @@ TEST(a_floor_of_tiles_is_felt_in_every_tick_of_a_diagonal_drag) {
     }
 }
 
-/* Where four tiles meet, over and over: at, before and behind each corner. Sums of decimal fractions are not exact, so
- * that at a corner a HIP lies beside all four by a rounding error. */
+/* Corners of four tiles, repeatedly: at, before and behind each corner. Sums of decimal fractions are not exact, so
+ * that at a corner a HIP is outside of all four by a rounding error. */
 TEST(a_drag_through_the_corners_of_tiles_is_felt_in_every_tick) {
     for (size_t i = 0; i < COUNT_OF(sizes); i++) {
         SCOPED_SCENE *scene = lay_floor(sizes[i], -1, -1, 0.0, NULL);
@@ -114,7 +114,7 @@ TEST(a_drag_through_the_corners_of_tiles_is_felt_in_every_tick) {
 }
 
 /* Along the middle of the odd tile's row, from 8 tiles before it to its far rim, in whole ticks a tile; the HIP's
- * height is DEPTH below the others. What the ticks over the odd one felt: contacts, and their depth. */
+ * height is DEPTH below the others. Checks the contacts over the odd one, and their depth. */
 static void drag_onto(double size, double odd, double wanted, int held) {
     knurl_surface_id id = 0;
     SCOPED_SCENE *scene = lay_floor(size, 50, 50, odd, &id);
@@ -145,7 +145,7 @@ TEST(below_a_tile_2_mm_higher_than_its_neighbour_the_hip_passes_and_contact_ends
 }
 
 /* Two planes with a crack between them; the HIP is dragged from one to the other and spends `ticks` ticks above the
- * crack. Told is what holds it there, and whether the second one does then. */
+ * crack. Returns the surface that holds it there, if the second one holds it then. */
 static uint32_t cross_crack(double crack, int ticks, uint32_t held) {
     knurl_scene *scene = empty_scene(1);
     surface_parts parts = surface_plane();

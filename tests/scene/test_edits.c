@@ -1,4 +1,4 @@
-/* Edits before the commit and after it: what is felt at the next tick, which ids go stale, what is refused.
+/* Edits before the commit and after it: the next tick, stale ids, errors.
  * SPDX-License-Identifier: MIT */
 #include "edits.h"
 
@@ -59,7 +59,7 @@ TEST(material_and_place_do_not_undo_each_other) {
         const double depth = 0.001 + 0.0002 * (k < 10 ? k : 10);
         CHECK_CLOSE(out.force[2], (k <= 5 ? 500.0 : 250.0) * depth, TOL);
         if (k == 5) {
-            set_stiffness(scene, id, 250.0); /* on the way */
+            set_stiffness(scene, id, 250.0); /* meanwhile */
         }
     }
 }
@@ -118,7 +118,7 @@ TEST(committed_scene_is_full_at_its_capacity_and_has_room_after_a_removal) {
     }
 }
 
-/* --- what is refused --- */
+/* --- errors --- */
 
 static void check_still_pressed(knurl_scene *scene, knurl_surface_id id) {
     const knurl_tick_output out = tick_at(scene, 0.0, 0.0, -0.001);
@@ -161,7 +161,7 @@ TEST(transforms_out_of_range_are_refused_by_name_and_change_nothing) {
     }
 }
 
-/* Taken or refused: either way nobody is thrown about. */
+/* Accepted or refused: in both cases the force stays finite. */
 TEST(transforms_to_far_off_leave_the_force_finite) {
     static const double far_off[] = {1e9, 1.001e9, 1e300};
     for (size_t i = 0; i < COUNT_OF(far_off); i++) {

@@ -1,5 +1,5 @@
-/* What edits cost: every byte is in the books and comes back, a refused request leaves the scene as it was, ticks ask
- * for nothing. SPDX-License-Identifier: MIT */
+/* Memory of edits: every byte is accounted for and freed, a failed allocation leaves the scene unchanged, ticks
+ * allocate nothing. SPDX-License-Identifier: MIT */
 #include "support/ledger.h"
 #include "support/poses.h"
 
@@ -67,7 +67,7 @@ TEST(bytes_return_to_where_they_were) {
     knurl_surface_id id;
     SCOPED_SHAPE sheet = shape_sheet(5, 5, (const double[2]){0.02, 0.02}, slope);
     knurl_scene *scene = pressed_scene(&books, &id);
-    for (int round = 0; round < 3; round++) { /* tables grow to what a round needs, and keep that */
+    for (int round = 0; round < 3; round++) { /* tables grow to a round's size, and keep it */
         busy_round(scene, &books, id, &sheet);
     }
     const uint64_t before = knurl_scene_get_bytes(scene);
@@ -166,7 +166,7 @@ static knurl_result edit(knurl_scene *scene, knurl_surface_id id, int kind, shap
 /* The force that the edit makes, 1 mm deep in a plane at 0. */
 static const double AFTER[5] = {0.8, 0.8, 0.6, 0.6, 0.0};
 
-/* Edits with one request refused: 1 where that made it fail. */
+/* Edits with one allocation failing: returns 1 if the edit failed. */
 static int edit_without(int32_t refused, int kind, int crowd, shape *sheet) {
     ledger books = {0, 0, 0, 0};
     knurl_surface_id id;
@@ -217,7 +217,7 @@ TEST(edits_that_get_no_memory_leave_the_scene_as_it_was) {
     }
 }
 
-/* The commit sorts: what it needs it gets, or says so and can be tried again. */
+/* The commit allocates for sorting: if that fails, it returns an error and can be repeated. */
 TEST(commit_that_gets_no_memory_can_be_made_again) {
     for (int32_t refused = 1; refused < 60; refused++) {
         ledger books = {0, 0, 0, 0};
@@ -264,7 +264,7 @@ TEST(ticks_neither_ask_for_memory_nor_give_any_back) {
             assert_int_equal(knurl_scene_remove_surface(scene, other), KNURL_OK);
         }
         const ledger before = books;
-        for (int k = 0; k < 20; k++) { /* here and there, so that whatever a HIP keeps of its surroundings changes */
+        for (int k = 0; k < 20; k++) { /* at different positions, so that a HIP's list of nearby surfaces changes */
             (void)tick_at(scene, random_between(&seed, -0.05, 1.0), 0.0, random_between(&seed, -0.003, 0.01));
         }
         assert_memory_equal(&before, &books, sizeof books);

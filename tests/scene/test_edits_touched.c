@@ -1,4 +1,4 @@
-/* Edits under a HIP: what is felt at the next tick; and ten thousand of them. SPDX-License-Identifier: MIT */
+/* Edits under a HIP: the next tick; and ten thousand of them. SPDX-License-Identifier: MIT */
 #include "edits.h"
 
 TEST(removing_what_is_touched_ends_the_contact_at_the_next_tick) {
@@ -79,8 +79,8 @@ TEST(surface_added_under_a_hip_holds_it_when_it_comes_down) {
     }
 }
 
-/* 50 Hz at 1 kHz: events of 20 ticks. What plays is played to its end with the amplitude and period it began with; the
- * stiffness is the new one at once. */
+/* 50 Hz at 1 kHz: events of 20 ticks. An event plays to its end with its initial amplitude and period; the stiffness
+ * changes at once. */
 static void change_in_mid_event(double new_fs, double new_amplitude) {
     surface_parts parts = surface_plane();
     knurl_vibration_event first;
@@ -219,7 +219,7 @@ TEST(ten_thousand_adds_and_removes_agree_with_a_plain_list) {
         for (uint32_t i = 0; i < list.count; i += step % 500 == 0 ? 1 : 37) {
             compare_place(scene, &list, i);
         }
-        if (step % 3 == 0) { /* among all that, ticks that touch what they come by */
+        if (step % 3 == 0) { /* in between, ticks in contact */
             const knurl_tick_output out = tick_at(scene, 0.0, 0.0, random_between(&seed, -0.012, 0.012));
             const char *felt = NULL;
             assert_true(isfinite(length3(out.force)));

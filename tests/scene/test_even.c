@@ -15,7 +15,7 @@ static knurl_scene *even_scene(const knurl_gain *gains, uint32_t count) {
     return scene;
 }
 
-/* H over what A alone would give, at a frequency between 100 and 480 Hz. */
+/* H divided by its value without gains, at a frequency between 100 and 480 Hz. */
 static double gain_at(knurl_scene *scene, double hz) {
     knurl_tick_output out;
     (void)tick_moving(scene, (const double[3]){0.0, 0.0, 0.01}, (const double[3]){0.0, 0.0, 0.0});
@@ -23,7 +23,7 @@ static double gain_at(knurl_scene *scene, double hz) {
     return out.height / (A * band_harmonics(0.05, hz / 1000.0));
 }
 
-/* Straight in log hz between two pairs; a tick looks it up in a table of 16 values an octave. */
+/* Linear in log hz between two pairs; a tick looks it up in a table of 16 values an octave. */
 TEST(a_gain_is_straight_in_log_frequency_between_pairs_and_constant_beyond) {
     knurl_scene *scene = even_scene(falling, COUNT_OF(falling));
     for (double hz = 100.0; hz < 480.0; hz *= 1.013) {

@@ -1,5 +1,5 @@
-/* What a HIP counts of a grating: half cycles crossed and played, with every method; and how far its ridges are off the
- * material's, told for both axes. SPDX-License-Identifier: MIT */
+/* A HIP's counts on a grating: half cycles crossed and played, with every method; and the stretch of its ridges against
+ * the material's, on both axes. SPDX-License-Identifier: MIT */
 #include "support/scenes.h"
 
 #define A 0.0002
@@ -25,8 +25,8 @@ static knurl_hip_counts stroke(surface_parts *parts, double vx, double vy, doubl
     return counts;
 }
 
-/* L metres over fs cycles/m cross 2 fs L half cycles. S1 and BANDLIMITED play each of them, give or take one at either
- * end; S2 too where the period is a whole number of ticks (10 and 50). */
+/* L metres over fs cycles/m cross 2 fs L half cycles. S1 and BANDLIMITED play each of them, give or take one at each
+ * end; S2, too, if the period is a whole number of ticks (10 and 50). */
 TEST(a_stroke_crosses_two_fs_times_its_metres_and_plays_them) {
     static const int32_t methods[] = {KNURL_METHOD_S1, KNURL_METHOD_S2, KNURL_METHOD_BANDLIMITED};
     static const double speeds[] = {0.02, 0.1};

@@ -1,6 +1,6 @@
-/* Every number that comes out is finite, whatever the scene and the hand: scenes from denormal floats to beyond what is
- * taken, with HIPs anywhere. A call gives an error and changes nothing, or all of its doubles are numbers.
- * SPDX-License-Identifier: MIT */
+/* All outputs are finite, for every scene and hand: scenes from denormal floats to beyond the accepted range, with HIPs
+ * anywhere. A call returns an error and changes nothing, or all of its doubles are finite. SPDX-License-Identifier: MIT
+ */
 #include "support/poses.h"
 
 #define FAR 1e9 /* m: KNURL_COORDINATE_MAX as it is documented */
@@ -29,7 +29,7 @@ static int one_in(int64_t n) {
     return random_integer(&seed, 1, n) == 1;
 }
 
-/* A number of any size, either sign; now and then one that is none, or no double's neighbour. */
+/* A number of any size and sign; now and then NaN, an infinity or a subnormal. */
 static double wild(double low, double high) {
     static const double odd[] = {0.0,      -0.0,        5e-324,           1.7e308,
                                  -1.7e308, (double)NAN, (double)INFINITY, -(double)INFINITY};

@@ -76,7 +76,7 @@ static void step_element(element *e, double x, double y, double friction, double
     e->force[1] = -K * dy;
 }
 
-/* Any way, any depth, also from where the HIP turns and where it presses harder or lets up. */
+/* Any path and depth, also with turns and changes of pressure. */
 static void compare_with_element(surface_parts *parts, const pose *p, uint64_t seed, long double tolerance) {
     element e = {{0.0, 0.0}, {0.0, 0.0}};
     double local[3] = {0.0, 0.0, 0.005};
@@ -127,7 +127,7 @@ TEST(strokes_over_a_turned_mesh_follow_the_element) {
     }
 }
 
-/* Over a sphere: never above mu times the load, against the way it slides, and at the limit once it does. */
+/* Over a sphere: never above mu times the load, against its motion, and at the limit once it does. */
 TEST(friction_on_a_sphere_opposes_the_way_it_slides) {
     SCOPED_SHAPE ball = shape_sphere(0.05, 4);
     surface_parts parts = surface_mesh(&ball);
@@ -186,7 +186,7 @@ TEST(strokes_to_and_fro_lose_the_area_of_the_hysteresis_loop) {
     check_loop(0.0050);
 }
 
-/* Whatever way is drawn at a constant depth, what the surface gave back never exceeds what it was given. */
+/* On any path at a constant depth, the surface never returns more energy than it received. */
 TEST(no_way_along_the_surface_yields_energy) {
     uint64_t seed = 99;
     for (int run = 0; run < 20; run++) {
@@ -212,7 +212,7 @@ TEST(no_way_along_the_surface_yields_energy) {
     }
 }
 
-/* --- what loads it and what does not --- */
+/* --- loading and unloading --- */
 
 TEST(letting_up_lets_it_slip) {
     surface_parts parts = rough_plane(MU);
@@ -280,7 +280,7 @@ TEST(friction_leaves_the_normal_force_alone) {
     }
 }
 
-/* No friction is the surface as it was before there was any: a caller who knows no such key. */
+/* Friction 0 is the same as before friction existed: a caller that does not know the key. */
 TEST(friction_0_is_bit_for_bit_a_material_without_the_key) {
     SCOPED_SHAPE ball = shape_sphere(0.03, 3);
     for (int mesh = 0; mesh < 2; mesh++) {
@@ -313,7 +313,7 @@ TEST(friction_taken_away_in_contact_is_gone_at_the_next_tick) {
     parts.material.friction = 0.0;
     assert_int_equal(knurl_scene_set_material(scene, id, &parts.material), KNURL_OK);
     CHECK_VECTOR(tick_at(scene, 0.003, 0.0, -DEPTH).force, 0.0, 0.0, K * DEPTH, TOL);
-    parts.material.friction = MU; /* and given back: never more than the limit, whatever it was anchored to */
+    parts.material.friction = MU; /* and back: never more than the limit, with any anchor */
     assert_int_equal(knurl_scene_set_material(scene, id, &parts.material), KNURL_OK);
     const knurl_tick_output out = tick_at(scene, 0.02, 0.0, -DEPTH);
     assert_true(out.force[0] <= 0.0 && out.force[0] >= -MU * K * DEPTH * (1.0 + 1e-12));
@@ -333,7 +333,7 @@ TEST(surface_that_slides_drags_a_resting_hip) {
         CHECK_VECTOR(tick_at(scene, 0.0, 0.0, -DEPTH).force, K * fmin(gone, MU * DEPTH), 0.0, K * DEPTH, TOL);
     }
     assert_int_equal(knurl_scene_set_transform(scene, id, (const double[3]){0.0, 0.0, 0.0}, rotation, 0.2), KNURL_OK);
-    for (int k = 1; k <= 30; k++) { /* and back: first it relaxes, then it drags the other way */
+    for (int k = 1; k <= 30; k++) { /* and back: first it relaxes, then it drags in the other direction */
         CHECK_CLOSE(tick_at(scene, 0.0, 0.0, -DEPTH).force[0], K * fmax(MU * DEPTH - 5e-5 * k, -MU * DEPTH), TOL);
     }
 }
@@ -350,7 +350,7 @@ TEST(surface_that_goes_with_the_hip_pulls_no_way) {
     }
 }
 
-/* The anchor goes round with the surface: from r to R(angle) r, and the spring to it with it. */
+/* The anchor turns with the surface: from r to R(angle) r, and the spring to it with it. */
 TEST(surface_that_turns_takes_the_anchor_along) {
     static const double z[3] = {0.0, 0.0, 1.0};
     const double at[3] = {0.1, 0.02, -DEPTH};
@@ -359,7 +359,7 @@ TEST(surface_that_turns_takes_the_anchor_along) {
     pose end = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};
     (void)tick_at(scene, at[0], at[1], 0.005);
     (void)tick_at(scene, at[0], at[1], at[2]);
-    turn_about(z, 0.015, end.quaternion); /* 1.5 mm of way */
+    turn_about(z, 0.015, end.quaternion); /* 1.5 mm of motion */
     move_to(scene, knurl_scene_get_surface(scene, 0), &end, 0.1);
     for (int k = 1; k <= 120; k++) {
         const double angle = 0.00015 * (k < 100 ? k : 100);

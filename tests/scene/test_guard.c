@@ -1,4 +1,4 @@
-/* The protections of a HIP in its ticks: what they keep from a hand, and what they let through to the bit.
+/* The protections of a HIP in its ticks: forces that they limit, and forces that they do not change by a bit.
  * SPDX-License-Identifier: MIT */
 #include "scene/scene.h"
 
@@ -50,7 +50,7 @@ TEST(a_first_tick_pressed_in_comes_in_as_a_ramp) {
     for (int tick = 1; tick <= 30; tick++) {
         const knurl_tick_output out = tick_at(scene, 0.0, 0.0, -0.009);
         CHECK_CLOSE(out.force[2], 100.0 * fmin(0.009, 0.0005 * tick), 1e-12);
-        CHECK_CLOSE(out.depth, 0.009, 1e-15); /* what is told is as it is */
+        CHECK_CLOSE(out.depth, 0.009, 1e-15); /* the reported depth is the true one */
         assert_int_equal((out.flags & KNURL_TICK_ENTRY) != 0, tick < 18);
         assert_int_equal(out.flags & KNURL_TICK_SLEW, 0);
     }
@@ -196,7 +196,7 @@ TEST(an_endless_continuous_force_is_no_limit) {
 
 static rig r;
 
-/* A rig's device tells the Touch's 0.88 N and 60 s. 2 N: theta 0.9 after 11.5 s. */
+/* A rig's device reports the Touch's 0.88 N and 60 s. 2 N: theta 0.9 after 11.5 s. */
 TEST(a_callback_warms_the_same_motors) {
     const double ratio2 = 2.0 * 2.0 / (0.88 * 0.88);
     rig_init(&r);
@@ -259,7 +259,7 @@ TEST(configuring_a_hip_begins_anew_and_cools_no_motor) {
     assert_int_equal(knurl_scene_configure_hip(scene, 0, &hip), KNURL_OK);
     const double before = counts_of(scene).heat;
     (void)tick_at(scene, 0.0, 0.0, 0.01);
-    assert_true(before == 0.0); /* nothing is told before the first tick */
+    assert_true(before == 0.0); /* zero before the first tick */
     CHECK_CLOSE(counts_of(scene).heat, 0.25 * (ratio2 + (warm - ratio2) * exp(-0.01)) * exp(-0.01), 1e-12);
 }
 
@@ -276,8 +276,9 @@ static int swing_in(knurl_scene *scene, double swing, double hz, double keeps) {
     return first;
 }
 
-/* 4 swings of 2.5 mm at 20 Hz are over after 100 ms, 17 of 1.2 mm after 425 ms. A hand taps at less than 8 Hz; what
- * dies by a tenth each time, or is small, is no runaway; a wall within (b + 0.5 N s/m)/1.5 ms = 667 N/m is passive. */
+/* 4 swings of 2.5 mm at 20 Hz are over after 100 ms, 17 of 1.2 mm after 425 ms. A hand taps at less than 8 Hz; swings
+ * that decay by a tenth each, or are small, are not a runaway; a wall within (b + 0.5 N s/m)/1.5 ms = 667 N/m is
+ * passive. */
 TEST(swings_that_go_on_are_stopped_and_nothing_else) {
     const struct {
         double stiffness, swing, hz, keeps;
@@ -348,7 +349,7 @@ TEST(unknown_protections_and_clamps_are_refused) {
     assert_int_equal(knurl_scene_configure_hip(scene, 0, &bad), KNURL_ERROR_ARGUMENT);
 }
 
-/* What test_protection_grids.c tunes, one rule at a time: swings of 2 mm in a wall. */
+/* The rules tuned by test_protection_grids.c, one at a time: swings of 2 mm in a wall. */
 static knurl_passivity swinging(void) {
     knurl_passivity p;
     memset(&p, 0, sizeof p);

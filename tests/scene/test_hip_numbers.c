@@ -69,8 +69,8 @@ TEST(every_number_of_a_hip_is_in_its_range_or_the_hip_is_as_it_was) {
                         "1000 N, found 4.94066e-324");
 }
 
-/* A press of a metre for 1000 ticks: no force beyond max_force, a heat that is a number, and from motors that warmed up
- * long ago what they hold for ever. Returns the last force, N. */
+/* A press of a metre for 1000 ticks: no force beyond max_force, a finite heat, and from motors at their final
+ * temperature their continuous force. Returns the last force, N. */
 static double check_motors(double rate, double max_force, double continuous_force, double heat_time) {
     surface_parts parts = surface_plane();
     parts.material.stiffness = 1e9;

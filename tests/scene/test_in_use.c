@@ -1,4 +1,4 @@
-/* What a loop uses is the loop's alone. SPDX-License-Identifier: MIT */
+/* A loop's device and HIP cannot be used by another one. SPDX-License-Identifier: MIT */
 #include "in_use.h"
 
 TEST(a_second_loop_on_a_device_is_refused_and_names_it) {
@@ -29,8 +29,8 @@ TEST(a_second_loop_on_a_hip_is_refused_and_names_it) {
     CHECK_REFUSED(make_loop(device, s.scene, 0, &second.loop), KNURL_ERROR_STATE, second);
     check_message("HIP 0");
     check_message("in use by another loop");
-    assert_int_equal(other.starts, starts); /* nothing was begun */
-    CHECK_CLOSE(motor(), 0.4, 0.01);        /* and the first goes on as it was */
+    assert_int_equal(other.starts, starts); /* nothing was started */
+    CHECK_CLOSE(motor(), 0.4, 0.01);        /* and the first one continues */
     assert_int_equal(make_loop(device, s.scene, 1, &second.loop), KNURL_OK);
     knurl_loop_destroy(second.loop);
     knurl_loop_destroy(s.loop);
@@ -103,7 +103,7 @@ TEST(of_two_threads_that_make_a_loop_of_the_same_at_once_one_does) {
     for (int turn = 0; turn < 200; turn++) {
         turns_with_two += race(s.device, turn % 2 ? s.device : device) == 2;
     }
-    /* (two may be made one after the other, where the first thread is late; never while both exist) */
+    /* (two may be made one after the other, if the first thread is late; never while both exist) */
     assert_int_equal(turns_with_two, 0);
     knurl_device_close(device);
     knurl_device_close(s.device);
@@ -124,7 +124,7 @@ TEST(what_would_change_a_device_or_a_hip_under_its_loop_is_refused) {
     assert_int_equal(make_loop(device, s.scene, 0, &loop), KNURL_OK);
     assert_int_equal(knurl_scene_configure_hip(s.scene, 0, &hip), KNURL_ERROR_STATE);
     check_message("HIP 0");
-    assert_int_equal(knurl_scene_configure_hip(s.scene, 1, &hip), KNURL_OK); /* nobody uses that one */
+    assert_int_equal(knurl_scene_configure_hip(s.scene, 1, &hip), KNURL_OK); /* which is not in use */
     assert_int_equal(knurl_device_start(device, 1000.0), KNURL_ERROR_STATE);
     check_message("in use");
     assert_int_equal(knurl_fake_set_trace(device, row, 1), KNURL_OK); /* a loop that is stepped ticks on this thread */

@@ -138,7 +138,7 @@ static void close_at_50(const knurl_tick_output *output, void *user) {
     }
 }
 
-/* Which nobody else could zero meanwhile. */
+/* No other thread could zero the force meanwhile. */
 TEST(a_close_on_the_haptic_thread_as_well) {
     for (uint32_t blocking = 0; blocking < 2; blocking++) {
         double forces[2] = {0.0, 1.0};
@@ -224,7 +224,7 @@ static void *finalise(void *user) {
     return NULL;
 }
 
-/* Finalises what `which` names at once, while `meanwhile` (or null) is done here. */
+/* Finalises the object `which` on another thread, while `meanwhile` (or null) runs here. */
 static void finalise_at_once(const char *which, void (*meanwhile)(void)) {
     uint32_t go = 0;
     pthread_t threads[3];
@@ -272,7 +272,7 @@ TEST(a_start_that_races_with_a_close_is_refused_or_ends) {
 
 /* --- from a callback --- */
 
-/* What a callback does at its 50th call. */
+/* Called by a callback at its 50th call. */
 static void (*at_fifty)(void);
 static uint32_t calls; /* atomic */
 

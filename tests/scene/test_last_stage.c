@@ -1,5 +1,5 @@
-/* The last stage by itself: what a force may change by in a tick, what a halt does, how warm motors get. The slew limit
- * is 0.66 N a tick: 3.3 N within 5 ms at 1 kHz. SPDX-License-Identifier: MIT */
+/* The last stage by itself: slew limit, halt, heat of the motors. The slew limit is 0.66 N per tick: 3.3 N within 5 ms
+ * at 1 kHz. SPDX-License-Identifier: MIT */
 #include "guard/last_stage.h"
 
 #include "support/scenes.h"
@@ -14,7 +14,7 @@ static knurl_last_stage ready(uint32_t protections, const double latest[3]) {
     return stage;
 }
 
-/* From the latest force as short as the new one, 0.66 N towards the new one. */
+/* From the last force, shortened to the new length, 0.66 N towards the new one. */
 TEST(a_force_that_falls_is_free_and_one_that_grows_or_turns_is_not) {
     static const struct {
         double latest[3], wanted[3], sent[3];
@@ -58,7 +58,7 @@ TEST(a_texture_is_let_through_by_as_much_as_it_jumps) {
     }
 }
 
-/* 400 N are asked for, far above max_force, so that the slew limit is at work in every tick. */
+/* Requests 400 N, far above max_force, so that the slew limit acts in every tick. */
 TEST(a_squeeze_ramps_the_fall_that_follows_it_and_no_later_one) {
     static const struct {
         int held; /* ticks between the squeeze and the fall */
@@ -120,7 +120,7 @@ TEST(a_limit_that_is_not_a_number_lets_no_force_through) {
     assert_true(!isfinite(knurl_last_stage_limit(&stage, 1.0, 0.0, force, &flags)));
 }
 
-/* 60 s; 2.64 N a while before, where 0.88 N are allowed: three times as much force is nine times as warm. */
+/* 60 s; 2.64 N for a while before, with a continuous force of 0.88 N: three times the force is nine times the heat. */
 TEST(motors_that_are_too_warm_get_the_continuous_force_and_cool_to_it) {
     static const double latest[3] = {0.0, 3.3, 0.0};
     knurl_last_stage stage = ready(KNURL_PROTECT_ALL, latest);

@@ -33,7 +33,7 @@ static shape sphere_with_twins(uint32_t twins, uint32_t step, int first) {
     return s;
 }
 
-/* m: the sphere's facets lie at most this far inside it: the largest stands on a circle of 0.0953 rad. */
+/* m: the largest depth of the sphere's facets inside it: the largest one is in a circle of 0.0953 rad. */
 #define SAG (0.03 * (1.0 - cos(0.0953)))
 
 /* 1 if a HIP that is 3 mm inside on its first tick, or has come there from outside, is pushed out along x, and one that
@@ -150,7 +150,7 @@ TEST(uvs_of_a_palette_count_as_none_and_are_told_where_a_grating_needs_them) {
         assert_string_equal(info_of(scene).coordinates, "box, for its uvs have no area");
         assert_true(check_of(scene).exceeded & KNURL_LIMIT_STRETCH);
         knurl_scene_destroy(scene);
-        parts.desc.coordinates = KNURL_COORDINATES_BOX; /* asked for */
+        parts.desc.coordinates = KNURL_COORDINATES_BOX; /* explicit */
         scene = scene_of(&parts);
         assert_string_equal(info_of(scene).coordinates, "box");
         assert_int_equal(check_of(scene).exceeded & KNURL_LIMIT_STRETCH, 0);
@@ -190,7 +190,7 @@ TEST(a_mesh_without_uvs_is_tagged_with_three_numbers_and_no_half_cycle_is_invent
 }
 
 /* A box of 40 mm: from its top over an edge of 90 degrees, down a side, and back. Ridges along z on top; on the side
- * facing +x they are upright, so the way down crosses no ridge. */
+ * facing +x they are upright, so the path down crosses no ridge. */
 TEST(ridges_of_a_box_stand_on_each_side_as_its_axes_say) {
     SCOPED_SHAPE box = shape_box((const double[3]){0.02, 0.02, 0.02}, 0);
     surface_parts parts = surface_mesh(&box);

@@ -1,4 +1,4 @@
-/* Surfaces that move: where they are at each tick, how fast they slide under a HIP, what they push.
+/* Surfaces that move: their pose at each tick, their sliding speed under a HIP, and the force on it.
  * SPDX-License-Identifier: MIT */
 #include "moving.h"
 
@@ -27,7 +27,7 @@ TEST(damping_takes_the_relative_velocity_along_the_normal) {
     move_to(scene, id, &top, 0.05);
     for (int k = 1; k <= 60; k++) {
         const knurl_tick_output out = stand_at(scene, 0.0, 0.0, -0.001);
-        if (k != 50) { /* at the very end it may be said to move still, or to stand */
+        if (k != 50) { /* at the very end it may still be reported as moving */
             CHECK_CLOSE(out.force[2], K * out.depth + (k < 50 ? 5.0 * 0.1 : 0.0), TOL);
         }
     }
@@ -84,7 +84,7 @@ TEST(surface_that_goes_with_the_hip_plays_none) {
     }
 }
 
-/* About an origin that is 0.22 m off: omega x r goes past the HIP. `turns`: rad in 0.1 s. The long way round: the
+/* About an origin at a distance of 0.22 m: omega x r passes the HIP. `turns`: rad in 0.1 s. The long way round: the
  * same target, named by the quaternion's negative, or by an angle beyond half a turn. */
 static void rotate_under(double angle, double shown_angle, double sign) {
     static const double z[3] = {0.0, 0.0, 1.0};
@@ -125,7 +125,7 @@ TEST(rotation_goes_the_short_way) {
     rotate_under(-0.3, whole - 0.3, -1.0);
 }
 
-/* A plane's way from one pose to another within 40 ms. */
+/* A plane's motion from one pose to another within 40 ms. */
 typedef struct way {
     pose from;
     double axis[3], angle, shift[3];
@@ -140,7 +140,7 @@ static pose pose_at(const way *w, double share) {
     return p;
 }
 
-/* What a HIP at rest feels of the plane at a share of its way; returns 0 once the plane has left it. */
+/* Checks a HIP at rest at a share of the plane's motion; returns 0 once the plane has left it. */
 static int check_on_the_way(knurl_scene *scene, const double *hip, const way *w, double share) {
     const pose now = pose_at(w, share);
     double normal[3];
@@ -200,7 +200,7 @@ TEST(place_and_turn_on_the_way_have_their_closed_forms) {
     }
 }
 
-/* Arrived, it stands exactly where a surface put there from the start does: the same numbers, bit for bit. */
+/* At its target it is exactly like a surface placed there from the start: the same numbers, bit for bit. */
 /* About any axis, exactly or nearly half a turn, in whole or in half: the normal stays in the plane of the turn. */
 TEST(half_a_turn_goes_about_its_own_axis) {
     for (int axis = 0; axis < 3; axis++) {

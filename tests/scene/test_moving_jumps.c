@@ -1,4 +1,4 @@
-/* Surfaces that move: jumps, which have no way, and whose time a way takes. SPDX-License-Identifier: MIT */
+/* Surfaces that move: jumps, and the duration of moves. SPDX-License-Identifier: MIT */
 #include "moving.h"
 
 /* --- jumps --- */
@@ -22,7 +22,7 @@ TEST(jump_passes_by_what_is_on_its_way) {
     }
 }
 
-/* Its way leads past the HIP, so that every tick looks at it, but it is still far off. */
+/* Its path leads past the HIP, so that every tick tests it, but it is still far away. */
 TEST(jump_of_what_was_on_its_way_to_the_hip_passes_by) {
     surface_parts parts = wide_plane();
     const pose low = at_height(0.0, 0.0, -0.2);
@@ -91,7 +91,7 @@ TEST(while_nobody_ticks_the_way_waits) {
     const pose up = at_height(0.0, 0.0, 0.004);
     const pose higher = at_height(0.0, 0.0, 0.008);
     move_to(scene, id, &up, 0.01);
-    move_to(scene, id, &higher, 0.01); /* no tick between: from where it still is */
+    move_to(scene, id, &higher, 0.01); /* no tick in between: from its present position */
     for (int k = 1; k <= 10; k++) {
         CHECK_CLOSE(stand_at(scene, 0.0, 0.0, -0.001).depth, 0.001 + 0.0008 * k, 1e-12L);
     }
@@ -117,7 +117,7 @@ TEST(hips_of_different_rates_see_the_same_way_in_seconds) {
     }
     const knurl_surface_id id = add_surface(scene, &parts);
     assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
-    for (int k = 0; k < 480; k++) { /* quarters of a millisecond; a way of 0.08 s from 0.02 s on */
+    for (int k = 0; k < 480; k++) { /* quarters of a millisecond; a motion of 0.08 s from 0.02 s on */
         assert_int_equal(knurl_scene_tick(scene, 1, &input, &out[1]), KNURL_OK);
         if (k % 4 == 3) {
             assert_int_equal(knurl_scene_tick(scene, 0, &input, &out[0]), KNURL_OK);
@@ -157,8 +157,8 @@ TEST(way_at_4_khz_takes_its_seconds) {
     }
 }
 
-/* The bounds of a turning rectangle against its corners along the way: they hold every one, and what they have to spare
- * is at most the height of a corner's arc over its chord, not the ball in which it could turn.
+/* The bounds of a turning rectangle against its corners along the way: they contain every corner, with a margin of at
+ * most the height of a corner's arc over its chord, not the ball in which it could turn.
  */
 TEST(bounds_of_a_turn_hold_it_closely) {
     static const double angles[] = {0.001, 0.01, 0.1, 0.5, 1.5, 3.1};

@@ -11,7 +11,7 @@ static double hills(double x, double y) {
 
 /* --- nothing tunnels --- */
 
-/* Flat walls that look towards their own +z: what comes first is z = 0. */
+/* Flat walls with their front towards +z, at z = 0. */
 static surface_parts wall(int kind, shape *s) {
     if (kind == 0) {
         surface_parts parts = surface_plane();
@@ -126,7 +126,8 @@ static void swing(int kind, uint32_t full_model, uint64_t *seed) {
     SCOPED_SCENE *scene = wall_scene(&parts, full_model);
     (void)tick_moving(scene, hip, (const double[3]){0.0, 0.0, 0.0});
     pose end = from;
-    const int ticks = (int)fmin(50.0, 2.0 / (omega * TICK)); /* less than half a turn: that is the way it goes */
+    const int ticks =
+        (int)fmin(50.0, 2.0 / (omega * TICK)); /* less than half a turn, so that the direction is unique */
     turn_about(x, start + omega * TICK * ticks, end.quaternion);
     move_to(scene, knurl_scene_get_surface(scene, 0), &end, TICK * ticks);
     for (int k = 1; k <= ticks && start + omega * TICK * k < 0.5; k++) {
@@ -167,7 +168,7 @@ TEST(no_paddle_that_swings_round_tunnels) {
     }
 }
 
-/* From behind nobody is held up, however fast. */
+/* From behind a HIP is never held, at any speed. */
 TEST(single_sided_wall_that_comes_from_behind_passes) {
     surface_parts parts = surface_plane();
     pose p = {{0.0, 0.0, 0.0203}, {0.0, 0.0, 0.0, 1.0}};

@@ -1,6 +1,5 @@
-/* A tick asks for no memory, takes no lock, waits for nothing and writes nothing. Linked with --wrap for the functions
- * that would (CMakeLists.txt), and then run where the kernel kills whoever asks it for anything.
- * SPDX-License-Identifier: MIT */
+/* A tick allocates no memory, takes no lock, never waits and writes nothing. Linked with --wrap for the functions that
+ * would (CMakeLists.txt), and then run under seccomp, which kills on a system call. SPDX-License-Identifier: MIT */
 #define _DEFAULT_SOURCE 1 /* fork(), syscall() */
 
 #include "full_model.h"
@@ -22,9 +21,9 @@
 #endif
 
 #define TICKS    10000
-#define SEGMENTS 20 /* of a stroke; edits, where a scene has some, come between them */
+#define SEGMENTS 20 /* of a stroke; edits, if a scene has any, come in between */
 
-/* Of anything that is wrapped, by whatever thread. Volatile: compilers know that malloc() changes nothing of ours. */
+/* Calls of wrapped functions, by any thread. Volatile, because compilers assume that malloc() does not change it. */
 static volatile uint64_t calls;
 
 static void count_call(void) {
@@ -154,7 +153,7 @@ static void add_tiles(knurl_scene *scene, int32_t method, double friction) {
     }
 }
 
-/* Both surfaces are on their way for most of each segment; every fifth time one of them jumps. */
+/* Both surfaces move for most of each segment; every fifth time one of them jumps. */
 static void move_both(knurl_scene *scene, int segment) {
     for (uint32_t i = 0; i < 2; i++) {
         const double side = (segment + (int)i) % 2 ? 1.0 : -1.0;
@@ -192,7 +191,7 @@ static void change_materials(knurl_scene *scene, int segment) {
     }
 }
 
-/* What is stroked: surfaces that reach from x = -0.05 to 0.14 m at z = 0, or thereabouts. */
+/* The stroked surfaces: from x = -0.05 to 0.14 m, at about z = 0. */
 static const struct stroked {
     const char *name;
     void (*add)(knurl_scene *scene, int32_t method, double friction);
@@ -240,7 +239,7 @@ static knurl_scene *make_scene(const struct stroked *what) {
     return scene;
 }
 
-/* Strokes over all of it, entering and leaving, over the outline as well. Where the HIP is, and what came of it. */
+/* Strokes over all of it, entering and leaving, over the outline as well. The HIP's position, and the result. */
 typedef struct stroke {
     double x, z;
     double vx, vz; /* m a tick */
@@ -285,7 +284,7 @@ static void stroke_on(knurl_scene *scene, stroke *s) {
     }
 }
 
-/* The stroke was what it is meant to be. */
+/* Checks that the stroke had its intended contacts. */
 static void check_stroke(const knurl_scene *scene, const struct stroked *what, const stroke *s) {
     knurl_hip_counts counts;
     assert_int_equal(knurl_scene_get_tick(scene, 0, NULL, &counts), KNURL_OK);
@@ -305,7 +304,7 @@ TEST(whatever_is_wrapped_is_noticed) {
     const struct timespec none = {0, 0};
     struct timespec now;
     uint64_t before = calls;
-    void *volatile memory = malloc(1); /* else neither call is made */
+    void *volatile memory = malloc(1); /* otherwise both calls are optimised away */
     free(memory);
     assert_true(calls == before + 2);
     before = calls;
@@ -324,7 +323,7 @@ TEST(whatever_is_wrapped_is_noticed) {
         (void)fwrite(&now, sizeof now, 1, file);
         (void)fclose(file);
     }
-    assert_true(calls >= before + 3); /* what these ask for counts too */
+    assert_true(calls >= before + 3); /* calls of these are counted, too */
     before = calls;
     (void)knurl_fail(KNURL_ERROR_STATE, "the library's calls are seen as well");
     assert_true(calls > before);
@@ -373,10 +372,10 @@ TEST(estimators_and_gratings_ask_for_nothing) {
     assert_true(states[1].event_count > 100);
 }
 
-#define REFUSED 77 /* a child's exit code where the kernel has no strict mode */
+#define REFUSED 77 /* a child's exit code if the kernel has no strict mode */
 
-/* A child does the segment that comes next, with no system call but its exit. How it ended: its exit code says in how
- * many ticks there was contact, modulo 64. */
+/* A child runs the next segment, without a system call but its exit. Its exit code is the number of ticks in contact,
+ * modulo 64. */
 static int run_strictly(knurl_scene *scene, const stroke *from, int ask_for_something) {
     int status = -1;
     const pid_t child = fork();
@@ -404,8 +403,8 @@ static int kernel_is_strict(void) {
     return !WIFEXITED(status) || WEXITSTATUS(status) != REFUSED;
 }
 
-/* Edits are made here, and so may ask for anything; then a child does the ticks up to the next edit, and the same ones
- * are done here, to go on from. */
+/* Edits are made here and may make system calls; then a child runs the ticks up to the next edit, and the same ticks
+ * run here, to continue from. */
 static void stroke_strictly(const struct stroked *what) {
     SCOPED_SCENE *scene = make_scene(what);
     stroke s = at_start;

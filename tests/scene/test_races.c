@@ -1,5 +1,5 @@
-/* What is said to be for any thread, against what changes it meanwhile. Under ThreadSanitizer the accesses themselves
- * are checked; without it, that nobody sees half of two states. SPDX-License-Identifier: MIT */
+/* Functions for any thread, against concurrent changes. ThreadSanitizer checks the accesses themselves; without it, no
+ * reader may see a mix of two states. SPDX-License-Identifier: MIT */
 #include "device/core/home.h"
 #include "support/scenes.h"
 
@@ -28,7 +28,7 @@ static void together(void *(*other)(void *), void (*here)(void *), void *user) {
     assert_int_equal(pthread_join(thread, NULL), 0);
 }
 
-/* --- a HIP's snapshot, workspace and limits while it is configured anew --- */
+/* --- a HIP's snapshot, workspace and limits while it is reconfigured --- */
 
 static uint64_t torn; /* atomic */
 
@@ -124,7 +124,7 @@ TEST(a_tick_sees_the_commit_and_all_that_came_before_it) {
     assert_true(torn == 0);
 }
 
-/* --- a device's information and a loop's, while the loop looks for the device --- */
+/* --- a device's information and a loop's, while the loop searches for the device --- */
 
 static void *ask_device(void *user) {
     while (!is_over()) {
@@ -161,7 +161,7 @@ static void lose_and_find(uint32_t blocking) {
     desc.force_callback = no_force;
     desc.reconnect = 1;
     desc.tick_limit = UINT64_MAX;
-    desc.update_rate_hz = 10000.0; /* so fast that cycles begin late, which is noted at the device */
+    desc.update_rate_hz = 10000.0; /* so fast that cycles are late, which is counted at the device */
     over = 0;
     torn = 0;
     assert_int_equal(knurl_loop_create(&desc, &loop), KNURL_OK);

@@ -1,4 +1,4 @@
-/* Another shape in a surface's place: what is touched goes on being touched. SPDX-License-Identifier: MIT */
+/* Replacing a surface by another shape: contact continues. SPDX-License-Identifier: MIT */
 #include "proxy/contacts.h"
 
 #include "support/ledger.h"
@@ -24,7 +24,7 @@ static void replace(knurl_scene *scene, knurl_surface_id id, surface_parts *part
     assert_int_equal(result, KNURL_OK);
 }
 
-/* A HIP rests in what is replaced again and again: boxes of all sizes, planes, and places within a millimetre. */
+/* A HIP rests in a surface that is replaced repeatedly: boxes of all sizes, planes, and poses within a millimetre. */
 TEST(what_is_pressed_stays_pressed_whatever_takes_its_place) {
     uint64_t seed = 3;
     surface_parts parts = surface_plane();
@@ -89,7 +89,7 @@ TEST(what_it_shrinks_away_from_ends) {
     shape_free(&boxes[1]);
 }
 
-/* It is found where it has grown to, and no more where it was, also by HIPs that were far away. */
+/* It is found at its new extent, and no more at its old place, also by HIPs that were far away. */
 TEST(it_is_felt_where_it_is_now) {
     for (int committed = 0; committed < 2; committed++) {
         surface_parts parts = surface_plane();
@@ -157,7 +157,7 @@ TEST(the_old_one_s_memory_comes_back) {
     assert_true(books.bytes == 0);
 }
 
-/* As a tick finds it: with another surface in its place, or none. */
+/* As seen by a tick: replaced by another surface, or removed. */
 TEST(a_contact_with_what_is_no_longer_there_is_over) {
     for (int gone = 0; gone < 2; gone++) {
         static knurl_surface_data surface;

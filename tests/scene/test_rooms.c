@@ -1,16 +1,16 @@
-/* Presses and strokes at random in rooms at random, against what is known of the rooms' solids: a HIP that is inside
- * one is held, its proxy is outside of all of them, and its force is what the proxy's distance says at most.
- * SPDX-License-Identifier: MIT */
+/* Random presses and strokes in random rooms, checked against the rooms' solids: a HIP inside one is held, its proxy is
+ * outside of all of them, and its force is at most the stiffness times the proxy's distance. SPDX-License-Identifier:
+ * MIT */
 #include "scene/rooms.h"
 
 #include <stdio.h>
 
 #define K         400.0 /* N/m */
 #define TICK      0.001 /* s */
-#define REACH     0.008 /* m: as far from its proxy a hand goes at most */
+#define REACH     0.008 /* m: a hand's largest distance from its proxy */
 #define TOLERANCE 2e-6  /* m: rounding of corners to floats, on solids of 0.2 m, and seams */
 
-/* What came of the presses. */
+/* Results of the presses. */
 typedef struct tally {
     long presses, squeezed, ticks, limited, lost, inside, unbounded;
     long mixed;     /* rooms whose reversed triangle stays as it is */
@@ -19,11 +19,11 @@ typedef struct tally {
     long corners[KNURL_CONTACTS_MAX + 1];
 } tally;
 
-/* Rooms whose ground is a field of heights: one mesh, or a mesh a triangle. Rooms of one mesh, of which one triangle
- * faces the other way. */
+/* Rooms whose ground is a field of heights: one mesh, or a mesh a triangle. Rooms of one mesh with one reversed
+ * triangle. */
 enum { TERRAIN = ROOM_FORMS, TERRAIN_PIECES, ONE_REVERSED };
 
-/* What moves in a room. */
+/* The moving part of a room. */
 enum { NOTHING, EVERYTHING, ONE_SOLID };
 
 /* A hand in a room. */
@@ -37,8 +37,8 @@ typedef struct visit {
     int form;
     int moving;
     laid surfaces;
-    double moved[3];         /* m: where what moves is now, */
-    double from[3], goal[3]; /* on its way from one place to the next, */
+    double moved[3];         /* m: offset of the moving part, */
+    double from[3], goal[3]; /* moving from one position to the next, */
     int phase;               /* so many ticks of FRAME */
     int squeezed;
     tally *sum;
@@ -47,7 +47,7 @@ typedef struct visit {
 /* A game's frame: ticks from one place to the next. */
 #define FRAME 8
 
-/* One tick, at whose end what moves is a step further. */
+/* One tick, then one step of the moving part. */
 static knurl_tick_output tick_in(visit *v, const double at[3]) {
     if (v->moving != NOTHING && v->phase == 0) {
         memcpy(v->from, v->goal, sizeof v->from);
@@ -84,7 +84,7 @@ static void complain(const visit *v, const knurl_tick_output *out, const char *w
     }
 }
 
-/* One tick, held against the solids. Returns 0 where it failed. */
+/* One tick, checked against the solids. Returns 0 on failure. */
 static int tick_and_check(visit *v, knurl_tick_output *out) {
     tally *t = v->sum;
     *out = tick_in(v, v->at);
@@ -99,7 +99,7 @@ static int tick_and_check(visit *v, knurl_tick_output *out) {
     const int inside = proxy > TOLERANCE && !lost;
     const int unbounded = !(force <= bound + 1e-12);
     t->unbounded += unbounded;
-    if (v->squeezed && (lost || inside) && !unbounded) { /* told: between two solids that close there is no way out */
+    if (v->squeezed && (lost || inside) && !unbounded) { /* reported: between two closing solids there is no exit */
         t->squeezed++;
         return 0;
     }
@@ -131,7 +131,7 @@ static void find_start(visit *v) {
     } while (room_distance(v->place, v->at, v->moved) < 0.001);
 }
 
-/* Without contact towards an edge of some solid, which is where things go wrong; in contact anywhere, but rather in. */
+/* Without contact towards an edge of some solid, where most faults occur; in contact anywhere, preferably inwards. */
 static void turn_at_random(visit *v, const knurl_tick_output *out, double speed) {
     const solid *s = &v->place->solids[random_integer(&v->seed, 0, v->place->count - 1)];
     const face *f = &s->faces[random_integer(&v->seed, 0, s->count - 1)];
@@ -154,7 +154,7 @@ static void turn_at_random(visit *v, const knurl_tick_output *out, double speed)
     }
 }
 
-/* From outside into something, about in it, no farther from the proxy than a hand goes. */
+/* From outside into something, then around in it, within a hand's distance of the proxy. */
 static void press(visit *v) {
     knurl_tick_output out;
     v->sum->presses++;
@@ -185,8 +185,8 @@ static void press(visit *v) {
     }
 }
 
-/* A reversed triangle is turned over, and told, or it is told that one is there; else nothing is. Returns 0 where it is
- * not turned over. */
+/* A reversed triangle is flipped and reported, or only reported; other rooms report none. Returns 0 if it is not
+ * flipped. */
 static int check_winding(const visit *v) {
     const knurl_surface_id surface = knurl_scene_get_surface(v->scene, 0);
     knurl_surface_info info;
@@ -246,7 +246,7 @@ static void tell(const tally *t, const char *what) {
 
 static tally check_rooms(int form, int moving, const char *what) {
     const char *longer = getenv("KNURL_LONG");
-    const char *given = getenv("KNURL_ROOMS"); /* 5000 are a million presses on what stands still */
+    const char *given = getenv("KNURL_ROOMS"); /* 5000 are a million presses on rooms at rest */
     const int rooms = given ? (int)strtol(given, NULL, 10) : longer ? 1000 : SUITE_SANITIZED ? 4 : 12;
     tally sum;
     memset(&sum, 0, sizeof sum);
@@ -260,7 +260,7 @@ static tally check_rooms(int form, int moving, const char *what) {
     return sum;
 }
 
-/* Where all moves as one, nothing closes in on a HIP. */
+/* If all moves as one, nothing squeezes a HIP. */
 static void check_rooms_that_move(int form, const char *what) {
     const tally sum = check_rooms(form, EVERYTHING, what);
     assert_int_equal(sum.squeezed, 0);
@@ -313,7 +313,7 @@ TEST(a_crest_is_felt_outside_of_solids_that_intersect) {
     assert_int_equal(sum.inside, 0);
 }
 
-/* Their triangles seem to have mixed winding where edges of two solids are in one place. */
+/* Their triangles seem to have mixed winding if edges of two solids coincide. */
 TEST(solids_that_touch_in_one_mesh_are_not_turned_over) {
     tally sum;
     memset(&sum, 0, sizeof sum);
@@ -323,7 +323,8 @@ TEST(solids_that_touch_in_one_mesh_are_not_turned_over) {
     assert_int_equal(sum.lost, 0);
 }
 
-/* T-junctions and touching solids everywhere: where they leave too little beside a triangle it stays as it is, told. */
+/* T-junctions and touching solids everywhere: if too little is left beside a triangle, it stays reversed and is
+ * reported. */
 TEST(rooms_of_which_one_triangle_faces_the_other_way_hold) {
     tally sum;
     memset(&sum, 0, sizeof sum);

@@ -1,5 +1,5 @@
-/* Many surfaces: a HIP that looks only at those near it feels what one feels that looks at all of them, whatever is
- * edited meanwhile. SPDX-License-Identifier: MIT */
+/* Many surfaces: a HIP that tests only those near it gets the same forces as one that tests all of them, with any edits
+ * in between. SPDX-License-Identifier: MIT */
 #include "full_model.h"
 #include "support/poses.h"
 
@@ -140,7 +140,7 @@ static void print_difference(int k, const knurl_tick_output *a, const knurl_tick
                 b->force[0], b->force[1], b->force[2]);
 }
 
-/* Two scenes that differ in what they leave out, edited and stroked alike. Returns the ticks in contact. */
+/* Two scenes with different reductions, edited and stroked alike. Returns the ticks in contact. */
 static int compare_models(uint32_t model, uint64_t seed, int ticks, int edit_every) {
     shape s = shape_sheet(2, 2, (const double[2]){0.006, 0.005}, bowl);
     knurl_scene *reduced = many_scene(0, 1);
@@ -208,7 +208,8 @@ TEST(surfaces_far_off_are_never_felt) {
     }
 }
 
-/* 50 mm deep off a rim and back onto it within the 5 ms in which that is one contact, wherever the latest query was. */
+/* 50 mm deep off a rim and back onto it within the 5 ms in which that is one contact, for any position of the last
+ * query. */
 TEST(a_hip_far_below_a_rim_is_held_again_as_if_all_were_looked_at) {
     static const double beside[3] = {1e-4, 2e-3, 2e-2}; /* m: how far off the rim */
     surface_parts parts = surface_plane();
@@ -295,7 +296,7 @@ TEST(surfaces_taken_out_are_no_longer_near) {
     }
 }
 
-/* 60 have come by here on their way and are long gone: the floor is felt all the same. */
+/* 60 surfaces have passed here and are far away: the floor is still felt. */
 TEST(surfaces_that_went_by_are_no_longer_near) {
     knurl_surface_id passers[60];
     surface_parts parts = surface_plane();

@@ -199,7 +199,7 @@ TEST(materials_out_of_range_are_refused_by_name) {
     }
     knurl_material_desc material;
     knurl_material_desc_init(&material, sizeof material);
-    assert_int_equal(knurl_scene_get_material(scene, id, &material), KNURL_OK); /* what was set first still holds */
+    assert_int_equal(knurl_scene_get_material(scene, id, &material), KNURL_OK); /* the first value is kept */
     assert_memory_equal(&material, &good.material, sizeof material);
 }
 
@@ -378,7 +378,7 @@ TEST(workspace_left_open_is_centred_on_all_bounds) {
     parts.desc.position[0] = 3.0;
     parts.desc.position[1] = -0.5;
     parts.desc.position[2] = 0.25;
-    parts.desc.normal[0] = 1.0; /* a quarter about y: stands upright in yz */
+    parts.desc.normal[0] = 1.0; /* a quarter turn about y: upright in yz */
     (void)add_surface(scene, &parts);
     assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
     assert_int_equal(knurl_scene_get_workspace(scene, 0, &workspace), KNURL_OK);

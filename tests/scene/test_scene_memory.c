@@ -1,5 +1,5 @@
-/* What a scene holds: bytes that come back, failures that leave it as it was, structs of older and newer callers, and
- * what it tells of its surfaces. SPDX-License-Identifier: MIT */
+/* Memory of a scene: bytes are freed, failures leave it unchanged, structs of older and newer callers, and information
+ * about its surfaces. SPDX-License-Identifier: MIT */
 #include "support/ledger.h"
 
 static double valley(double x, double y) {
@@ -115,7 +115,7 @@ TEST(memory_that_runs_out_makes_no_scene) {
     }
 }
 
-/* Callers of another version: what a material was before `damping` was appended, and after something else will be. */
+/* Callers of another version: a material before `damping` was appended, and with a future field. */
 TEST(older_material_keeps_the_defaults_of_what_it_lacks) {
     surface_parts parts = surface_plane();
     knurl_material_desc material;
@@ -189,7 +189,7 @@ TEST(info_tells_what_a_plane_came_to_be) {
     parts.desc.name = "wall";
     parts.desc.double_sided = 1;
     parts.desc.position[2] = 0.5;
-    parts.desc.normal[1] = -1.0; /* a quarter about x: the front looks to -y */
+    parts.desc.normal[1] = -1.0; /* a quarter turn about x: the front faces -y */
     parts.plane.half_extents[0] = 0.02;
     parts.plane.half_extents[1] = 0.03;
     parts.material.orientation = asin(1.0); /* the grating's x along the plane's y, the scene's z */

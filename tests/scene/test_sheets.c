@@ -14,8 +14,8 @@ static double uneven(double x, double y) {
     return random_between(&uneven_seed, 0.0, unevenness);
 }
 
-/* A sheet of 8 x 8 quads of 5 mm whose middle quad is cut anew: one of its edges is split in two for its own triangles,
- * and not for its neighbour's (a T-junction); offset: m that the new vertex is off the edge's middle, upwards. */
+/* A sheet of 8 x 8 quads of 5 mm whose middle quad is recut: one of its edges is split for its own triangles, but not
+ * for its neighbour's (a T-junction); offset: m of the new vertex above the edge's middle. */
 static shape uneven_sheet(uint64_t seed, double height, double offset) {
     uneven_seed = seed;
     unevenness = height;
@@ -83,7 +83,7 @@ static int press_uneven(const shape *s, uint64_t seed, int presses) {
     return lost;
 }
 
-/* From above straight down, then along four legs below all of the sheet. Returns 1 where contact was lost. */
+/* From above straight down, then along four legs below all of the sheet. Returns 1 if contact was lost. */
 static int stroke_below(knurl_scene *scene, double deep, uint64_t *seed) {
     double at[3] = {random_between(seed, -0.004, 0.004), random_between(seed, -0.004, 0.004), 0.004};
     int lost = 0;
@@ -139,7 +139,7 @@ TEST(an_uneven_sheet_with_a_t_junction_holds) {
     }
 }
 
-/* The same sheet with the split vertex lifted by a hair, and a sliver that fills what opens. */
+/* The same sheet with the split vertex lifted by a hair, and a sliver that fills the gap. */
 TEST(a_sliver_in_an_uneven_sheet_loses_no_stroke) {
     const double hairs[4] = {1e-9, 1e-8, 1e-7, 1e-6};
     for (int i = 0; i < 4; i++) {

@@ -1,4 +1,4 @@
-/* Smooth meshes against the forms they stand for: direction, depth and steps of the force on strokes.
+/* Smooth meshes against the true forms: direction, depth and steps of the force on strokes.
  * SPDX-License-Identifier: MIT */
 #include "scene/smooth.h"
 
@@ -6,7 +6,7 @@
 
 #define K     800.0
 #define DEPTH 0.001  /* m */
-#define WAY   0.0001 /* m a tick: 100 mm/s */
+#define WAY   0.0001 /* m per tick: 100 mm/s */
 
 /* How a stroke 1 mm below a form differs from it. */
 typedef struct stroke {
@@ -36,7 +36,7 @@ static double turned(double at, double step, double low, double high) {
     return (at > high - inner && step > 0.0) || (at < low + inner && step < 0.0) ? -step : step;
 }
 
-/* A slanted way to and fro over the form, a tick's length each. */
+/* A slanted path to and fro over the form, one step per tick. */
 static stroke stroke_over(const smooth_mesh *m, int is_smooth, const smooth_patch *p) {
     surface_parts parts = smooth_surface(m, is_smooth);
     parts.material.stiffness = K;
@@ -62,7 +62,7 @@ static stroke stroke_over(const smooth_mesh *m, int is_smooth, const smooth_patc
         s.depth = fmax(s.depth, fabs(force / (K * DEPTH) - 1.0));
         s.step = k > 0 ? fmax(s.step, distance3(out.force, last)) : 0.0;
         memcpy(last, out.force, sizeof last);
-        place(u + 1e-6 * du, v + 1e-6 * dv, p->form, DEPTH, next, normal); /* a tick's way in the parameters */
+        place(u + 1e-6 * du, v + 1e-6 * dv, p->form, DEPTH, next, normal); /* a tick's step in the parameters */
         const double way = 1e6 * distance3(next, hip);
         du = turned(u, du, p->low[0], p->high[0]);
         dv = turned(v, dv, p->low[1], p->high[1]);
@@ -112,7 +112,7 @@ TEST(smooth_forms_are_felt_as_their_closed_forms) {
     }
 }
 
-/* A hand that goes anywhere near a form, up to 4 mm deep. */
+/* A hand that moves randomly near a form, up to 4 mm deep. */
 typedef struct wander {
     double at[3], velocity[3];
     uint64_t seed;
@@ -136,7 +136,7 @@ static void go_on(wander *w, const knurl_tick_output *out, double speed) {
     add3(w->at, 0.001, w->velocity, w->at);
 }
 
-/* On a sphere or a torus the force changes by no more than K times the way, whatever the mesh. */
+/* On a sphere or a torus the force changes by no more than K times the distance moved, on any mesh. */
 static void check_continuous(const smooth_mesh *m, double speed, const char *what) {
     surface_parts parts = smooth_surface(m, 1);
     parts.material.stiffness = K;

@@ -122,7 +122,7 @@ TEST(flat_normals_change_nothing) {
     smooth_free(&m);
 }
 
-/* A flat sheet stays a plane with normals that stand on it, and does not with others. */
+/* A flat sheet stays a plane if its normals are perpendicular to it, and not otherwise. */
 TEST(a_flat_mesh_is_a_plane_if_its_normals_are) {
     for (int bent = 0; bent < 2; bent++) {
         smooth_mesh m = {shape_sheet(4, 4, (const double[2]){0.05, 0.05}, NULL), NULL};

@@ -11,7 +11,7 @@
 #define HEIGHT    0.004 /* m: of the HIP over the one surface's place */
 #define GAP       0.005 /* m: of the other's, at first */
 
-/* What surfaces are; each has its front at z = 0, towards +z. */
+/* Kinds of surfaces; each has its front at z = 0, towards +z. */
 enum { PLANE, FLAT_MESH, UNEVEN_MESH, BOX, KINDS };
 static const char *const names[KINDS] = {"plane", "flat mesh", "uneven mesh", "box"};
 
@@ -35,7 +35,7 @@ static knurl_surface_id add_kind(knurl_scene *scene, int kind, const pose *at) {
     return id;
 }
 
-/* A default HIP, but that it stands in scene axes and is not quantised. */
+/* A default HIP, but in scene axes and without quantisation. */
 static void configure_protected(knurl_scene *scene) {
     knurl_hip_desc desc;
     knurl_workspace workspace;
@@ -46,7 +46,7 @@ static void configure_protected(knurl_scene *scene) {
     assert_int_equal(knurl_scene_configure_hip(scene, 0, &desc), KNURL_OK);
 }
 
-/* What came of a squeeze. */
+/* Result of a squeeze. */
 typedef struct squeeze {
     double most;    /* N: the greatest force, */
     double step;    /* N: and its greatest change in a tick */
@@ -58,7 +58,7 @@ typedef struct squeeze {
 } squeeze;
 
 /* A floor and a lid over it that comes down at `speed` (m/s) through the HIP and the floor, to `past` m below it, and
- * goes back up. The HIP stands still, HEIGHT over the floor. */
+ * goes back up. The HIP is at rest, HEIGHT over the floor. */
 static squeeze close_over(int floor, int lid, double speed, double past) {
     const pose at_floor = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};
     pose at_lid = {{0.0, 0.0, GAP}, {1.0, 0.0, 0.0, 0.0}}; /* turned over */

@@ -1,6 +1,6 @@
-/* Two HIPs tick as fast as they can while two threads edit what they touch, a thousand times a second each. Whatever is
- * felt must be one edit whole, never older than what was felt before or than what had been done when the tick began.
- * KNURL_STRESS_SECONDS sets how long. SPDX-License-Identifier: MIT */
+/* Two HIPs tick as fast as they can while two threads edit what they touch, a thousand times a second each. Each tick
+ * must see one complete edit, never older than the previous tick's or than the last edit completed before the tick.
+ * KNURL_STRESS_SECONDS: duration. SPDX-License-Identifier: MIT */
 #include "support/ledger.h"
 #include "support/poses.h"
 
@@ -17,23 +17,23 @@ enum {
     FELT,  /* its material is replaced, or all of it: stiffness and amplitude name the same number */
     MOVED, /* it jumps: its height and its turn name the same number */
     COMES, /* it is taken out, and another comes: the stiffness names which */
-    GLIDES /* it is always on its way */
+    GLIDES /* it always moves */
 };
 
-#define CYCLE   1000000 /* numbers that MOVED can tell apart */
-#define BOTTOM  0.001   /* m: how deep a HIP is pressed below 0 */
-#define TALLEST 0.002   /* m: GLIDES' highest place */
+#define CYCLE   1000000 /* numbers that MOVED can distinguish */
+#define BOTTOM  0.001   /* m: depth of a HIP below 0 */
+#define TALLEST 0.002   /* m: the highest position of GLIDES */
 
-/* What editors have done, and what HIPs may ask. */
+/* State shared by editors and HIPs. */
 typedef struct stage {
     knurl_scene *scene;
     knurl_surface_id ids[4];
-    uint64_t done[4]; /* atomic: the number of the latest edit that is complete */
-    uint64_t gone;    /* atomic: of COMES, the latest that was taken out */
+    uint64_t done[4]; /* atomic: the number of the last complete edit */
+    uint64_t gone;    /* atomic: of COMES, the last one that was removed */
     uint32_t over;    /* atomic */
 } stage;
 
-/* What one HIP found; threads cannot fail a test themselves. */
+/* Results of one HIP; threads cannot fail a test themselves. */
 typedef struct observer {
     stage *stage;
     uint32_t hip;
@@ -264,7 +264,7 @@ static uint64_t watch(const stage *s, double seconds) {
     return halves;
 }
 
-/* After the end the newest edits are what is felt. */
+/* After the end the newest edits are felt. */
 static void check_newest(stage *s, uint32_t hip) {
     for (int which = 0; which < 4; which++) {
         knurl_tick_output out;
@@ -307,7 +307,7 @@ TEST(edits_under_two_ticking_hips_are_seen_whole_and_in_order) {
     pthread_t threads[HIPS + 2];
     uint64_t seed = 9;
     set_stage(&s, &books);
-    for (int i = 0; i < 200; i++) { /* tables grow to what is needed */
+    for (int i = 0; i < 200; i++) { /* tables grow to their final size */
         replace_material(&s);
         jump(&s);
         replace_surface(&s);

@@ -1,11 +1,11 @@
-/* What one tick renders on one surface: Eq. 9 with S1 and S2, damping, limits, frames and coordinates.
+/* One tick on one surface: Eq. 9 with S1 and S2, damping, limits, frames and coordinates.
  * SPDX-License-Identifier: MIT */
 #include "support/poses.h"
 
 #define PI  3.14159265358979323846
 #define K   400.0  /* N/m, the default */
 #define A   0.0005 /* m */
-#define TOL 1e-9L  /* N: far below what can be felt, far above rounding */
+#define TOL 1e-9L  /* N: far below the threshold of feeling, far above rounding */
 
 static surface_parts grating_plane(int32_t method, double fsx, double fsy) {
     surface_parts parts = surface_plane();
@@ -76,7 +76,7 @@ TEST(cycles_tell_where_on_the_grating) {
     knurl_scene_destroy(scene);
 }
 
-/* S2 at a constant speed is T3 at rate/(fs v), whatever the event: even, odd, mixed, above f_h/2. */
+/* S2 at a constant speed is T3 at rate/(fs v), for all kinds of events: even, odd, mixed, above f_h/2. */
 static void compare_with_events(double rate, double fs, const double velocity[3], double frequency) {
     surface_parts parts = grating_plane(KNURL_METHOD_S2, fs, 0.5 * fs);
     SCOPED_SCENE *scene = empty_scene(1);
@@ -94,7 +94,7 @@ static void compare_with_events(double rate, double fs, const double velocity[3]
     assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
     assert_int_equal(knurl_vibration_event_prepare(rate / frequency, A, &event), KNURL_OK);
     for (int32_t k = 0; k < 5 * event.length; k++) {
-        const double hip_at[3] = {0.01 * sin(k), 0.02 * cos(k), -0.002}; /* where it is makes no difference */
+        const double hip_at[3] = {0.01 * sin(k), 0.02 * cos(k), -0.002}; /* its position makes no difference */
         const knurl_tick_output out = tick_moving(scene, hip_at, velocity);
         const double height = knurl_vibration_event_height(&event, k % event.length);
         CHECK_CLOSE(out.height, height, 1e-15L);
@@ -259,7 +259,7 @@ TEST(velocity_from_behind_keeps_a_right_handed_frame) {
     CHECK_CLOSE(out.surface_velocity[1], -0.1, 1e-12L); /* y = n x x */
 }
 
-/* A sheet whose uvs are mirrored or not, with S1: what is felt is what is painted at (u su, v sv). */
+/* A sheet whose uvs are mirrored or not, with S1: ridges are as painted at (u su, v sv). */
 static void compare_with_paint(int mirror_u, int mirror_v, double orientation) {
     SCOPED_SHAPE sheet = shape_sheet(8, 8, (const double[2]){0.0625, 0.03125}, NULL);
     for (uint32_t v = 0; v < sheet.vertex_count; v++) { /* u runs 0 to 5, v 0 to 2: su = 0.025, sv = 0.03125 */
@@ -276,7 +276,7 @@ static void compare_with_paint(int mirror_u, int mirror_v, double orientation) {
         const double y = random_between(&seed, -0.03, 0.03);
         const double along_u = mirror_u ? 0.0625 - x : 0.0625 + x;
         const double along_v = mirror_v ? 0.03125 - y : 0.03125 + y;
-        /* turned counter-clockwise, seen from the front, whichever way v is painted */
+        /* turned counter-clockwise, seen from the front, independent of v's direction */
         const double across = mirror_u != mirror_v ? -along_v : along_v;
         const double gx = cos(orientation) * along_u + sin(orientation) * across;
         const double gy = cos(orientation) * across - sin(orientation) * along_u;
@@ -295,7 +295,7 @@ TEST(s1_by_uvs_is_felt_where_it_is_painted) {
     }
 }
 
-/* Where u runs twice as fast, painted stripes are half as wide, and so are those that are felt. */
+/* If u runs twice as fast, painted stripes are half as wide, and so are the ridges. */
 TEST(s1_by_uvs_stretches_with_them) {
     SCOPED_SHAPE sheet = shape_sheet(2, 1, (const double[2]){0.05, 0.05}, NULL);
     for (uint32_t v = 0; v < 6; v++) {
@@ -339,7 +339,7 @@ TEST(grating_from_behind_is_that_of_the_surface_turned_over) {
     }
 }
 
-/* TEXCOORD_0 would say +x; TANGENT says 30 degrees from it, leaning out of the surface, and not of unit length. */
+/* TEXCOORD_0 gives +x; TANGENT is 30 degrees from it, leans out of the surface, and is not of unit length. */
 TEST(tangents_go_before_uvs) {
     float tangents[9 * 4];
     SCOPED_SHAPE sheet = shape_sheet(2, 2, (const double[2]){0.05, 0.05}, NULL);

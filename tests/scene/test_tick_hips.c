@@ -1,4 +1,4 @@
-/* What one tick does beside rendering: workspaces, limits, lift-off, bad numbers, several surfaces and several HIPs,
+/* One tick except rendering: workspaces, limits, lift-off, bad numbers, several surfaces and several HIPs,
  * snapshots for other threads. SPDX-License-Identifier: MIT */
 #include "support/scenes.h"
 
@@ -101,7 +101,7 @@ TEST(force_limit_shortens_and_keeps_the_direction) {
     hip.protections = 0; /* it jumps into the walls */
     assert_int_equal(knurl_scene_configure_hip(scene, 0, &hip), KNURL_OK);
     (void)add_surface(scene, &parts);
-    parts.desc.normal[1] = -1.0; /* a wall that looks to -y */
+    parts.desc.normal[1] = -1.0; /* a wall facing -y */
     (void)add_surface(scene, &parts);
     assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
     (void)tick_at(scene, 0.0, -0.001, 0.001);
@@ -112,7 +112,7 @@ TEST(force_limit_shortens_and_keeps_the_direction) {
     CHECK_VECTOR(out.force, 0.0, -0.8 * 3.3, 0.6 * 3.3, TOL);
     CHECK_VECTOR(out.device_force, 0.0, -0.8 * 3.3, 0.6 * 3.3, TOL);
     assert_int_equal(out.flags, KNURL_TICK_CONTACT | KNURL_TICK_FORCE_LIMIT);
-    CHECK_CLOSE(out.depth, 0.008, 1e-15L); /* what is told is not shortened */
+    CHECK_CLOSE(out.depth, 0.008, 1e-15L); /* the reported depth is not limited */
     (void)tick_at(scene, 0.0, 0.008, -0.006);
     assert_int_equal(knurl_scene_get_tick(scene, 0, NULL, &counts), KNURL_OK);
     assert_true(counts.force_limit_ticks == 2);
@@ -239,7 +239,7 @@ TEST(more_surfaces_than_slots_are_flagged) {
     }
 }
 
-/* What a HIP has been outside of stays outside: below the topmost plane it meets no other. */
+/* A HIP outside of a surface stays outside of it: below the topmost plane it touches no other one. */
 TEST(of_planes_on_top_of_each_other_the_topmost_holds) {
     for (int count = 1; count <= 6; count++) {
         SCOPED_SCENE *scene = stack_of_planes(count, 0, 0.0);
@@ -331,7 +331,7 @@ TEST(a_batch_is_its_ticks_one_by_one) {
     }
     inputs[1].reserved[0] = 1;
     assert_int_equal(knurl_scene_tick_batch(batched, 0, inputs, 3, outputs), KNURL_ERROR_ARGUMENT);
-    assert_true(outputs[2].tick == TICKS + 1); /* the one in the middle was none */
+    assert_true(outputs[2].tick == TICKS + 1); /* the one in the middle was not a tick */
     assert_int_equal(knurl_scene_tick_batch(batched, 0, inputs, 0, outputs), KNURL_OK);
 }
 
@@ -404,7 +404,7 @@ typedef struct reader {
     uint64_t torn;
 } reader;
 
-/* No assertions on another thread: what is torn is counted. */
+/* No assertions on another thread: torn reads are counted. */
 static void *read_snapshots(void *argument) {
     reader *r = argument;
     uint64_t last = 0;

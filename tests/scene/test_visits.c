@@ -1,5 +1,5 @@
-/* The limit of what contact looks at in a tick: where it is met, it is told and counted, and a HIP that is held is held
- * on. SPDX-License-Identifier: MIT */
+/* The limit of visits in a tick: reaching it is reported and counted, and a held HIP stays held.
+ * SPDX-License-Identifier: MIT */
 #include "scene/scene.h"
 #include "support/geometry.h"
 #include "support/scenes.h"
@@ -110,7 +110,7 @@ TEST(a_hip_that_is_held_is_held_on_when_the_visits_are_used_up) {
     }
 }
 
-/* Exactly onto a pole, where the way of the proxy over 96 triangles takes more than a tick has. */
+/* Exactly onto a pole, where the proxy's walk over 96 triangles exceeds a tick's visits. */
 TEST(a_contact_begins_although_the_visits_are_used_up) {
     SCOPED_SHAPE s = globe(96, 48);
     surface_parts parts = surface_shape(&s, 0.0);
@@ -185,9 +185,9 @@ TEST(a_surface_that_holds_has_room_before_crests) {
     assert_true((out.flags & KNURL_TICK_CONTACTS_FULL) != 0);
 }
 
-/* Through a plane in a tick of 1 mm, for as many visits. What else the tick looks at first, another plane 1.5 mm beside
- * the way and a sphere 0.3 mm below its end, is not touched; with few visits it is looked at a second time, but for the
- * plane beside. Returns whether the visits were used up. */
+/* Through a plane in a tick of 1 mm, for as many visits. The other surfaces that the tick tests first, a plane 1.5 mm
+ * beside the path and a sphere 0.3 mm below its end, are not touched; with few visits they are tested a second time,
+ * except that plane. Returns 1 if the visits were used up. */
 static int check_only_plane_is_touched(const shape *below, uint32_t max_visits) {
     surface_parts plane = surface_plane(), sphere = surface_shape(below, 0.0);
     knurl_hip_contact contacts[KNURL_CONTACTS_MAX];

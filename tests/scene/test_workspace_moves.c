@@ -1,5 +1,5 @@
-/* A workspace that is moved and zoomed while its HIP ticks. Positions, velocities and forces follow from where it is,
- * by hand. SPDX-License-Identifier: MIT */
+/* A workspace that is moved and zoomed while its HIP ticks. Expected positions, velocities and forces are computed by
+ * hand from its pose. SPDX-License-Identifier: MIT */
 #include "support/scenes.h"
 
 #include "base/vec3.h"
@@ -47,7 +47,7 @@ TEST(the_hip_goes_with_its_workspace_at_its_speed) {
     CHECK_VECTOR(out.hip_velocity, 0.0, 0.0, 0.0, 1e-12);
 }
 
-/* A quarter turn about z in 0.1 s: the HIP, 10 mm off the origin, goes round at 0.01 m * pi/2 / 0.1 s. */
+/* A quarter turn about z in 0.1 s: the HIP, 10 mm from the origin, moves at 0.01 m * pi/2 / 0.1 s. */
 TEST(a_workspace_that_turns_takes_positions_and_forces_along) {
     static const double quarter[9] = {0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0};
     SCOPED_SCENE *scene = wall();
@@ -100,7 +100,7 @@ TEST(a_workspace_that_jumps_touches_nothing_on_its_way) {
     CHECK_VECTOR(out.hip_velocity, 0.0, 0.0, 0.0, 1e-12);
 }
 
-/* 1 mm ridges under a hand that stands still, in a workspace that passes at 100 mm/s: 100 ridges a second. */
+/* 1 mm ridges under a hand at rest, in a workspace that passes at 100 mm/s: 100 ridges a second. */
 TEST(ridges_are_felt_at_the_workspaces_speed) {
     surface_parts parts = surface_plane();
     set_grating(&parts, KNURL_METHOD_S1, 1000.0, 0.0, 0.0002);
@@ -147,7 +147,7 @@ TEST(moves_that_are_none_are_refused_with_what_was_expected) {
     knurl_scene_destroy(scene);
 }
 
-/* Doubled in a second: the scale is 2^t, the velocity what the position changes by. */
+/* Doubled in a second: the scale is 2^t, the velocity the change of position. */
 TEST(a_zoom_carries_the_hip_from_the_origin_at_its_speed) {
     SCOPED_SCENE *scene = wall();
     const knurl_workspace to = zoomed(0.01, 2.0);
@@ -198,7 +198,7 @@ TEST(a_zoom_takes_a_fifth_of_a_second_for_a_factor_of_e_at_least) {
     CHECK_CLOSE(tick_at(scene, 0.03, 0.0, 0.03).hip[0], 0.03 * exp(-2.0), 1e-15);
 }
 
-/* Engines move a workspace anew in every frame. */
+/* Engines set a workspace in every frame. */
 TEST(a_zoom_goes_on_while_the_workspace_is_moved_on) {
     SCOPED_SCENE *scene = wall();
     const knurl_workspace first = zoomed(0.0, exp(1.0));
@@ -224,8 +224,8 @@ TEST(a_jump_ends_a_zoom) {
     CHECK_VECTOR(tick_at(scene, 0.03, 0.0, 0.03).hip, 0.06, 0.0, 0.06, 0.0);
 }
 
-/* 11 mm below the origin, which is 10 mm above the wall: 1 mm deep, then 3.2 mm. On its way the HIP goes at 5/s times
- * 13.2 mm at most, and the force grows by 400 N/m times that. */
+/* 11 mm below the origin, which is 10 mm above the wall: 1 mm deep, then 3.2 mm. The HIP moves at 5/s times 13.2 mm at
+ * most, and the force grows by 400 N/m times that. */
 TEST(a_zoom_presses_its_hip_into_a_wall_without_a_jump) {
     SCOPED_SCENE *scene = wall();
     const knurl_workspace start = at(0.0, 0.0, 0.01);
@@ -263,7 +263,7 @@ TEST(a_zoom_that_jumps_touches_nothing) {
     }
 }
 
-/* Ridges on a wall that is beyond what the device can do, with all protections: the same bits at the same scale. */
+/* Ridges on a wall beyond the device's limits, with all protections: the same bits at the same scale. */
 static knurl_scene *stiff_wall(double scale) {
     surface_parts parts = surface_plane();
     knurl_workspace workspace = zoomed(0.0, scale);

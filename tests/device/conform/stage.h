@@ -1,4 +1,4 @@
-/* A device whose hand goes where a test says, and a judge at its write(): a Touch's limits, a plane to press into, a
+/* A device whose hand is moved by the test, and a judge at its write(): a Touch's limits, a plane to press into, a
  * lid to squeeze with. SPDX-License-Identifier: MIT */
 #ifndef KNURL_TEST_STAGE_H
 #define KNURL_TEST_STAGE_H
@@ -8,13 +8,13 @@
 #include "support/close.h"
 
 #define STAGE_FORCE 3.3  /* N: the device's greatest */
-#define STAGE_SLEW  0.66 /* N a tick: that within 5 ms */
+#define STAGE_SLEW  0.66 /* N per tick: STAGE_FORCE within 5 ms */
 
 typedef struct stage {
     judge j;
     double position[3]; /* m: of the hand */
     double latest[3];   /* N: written last */
-    uint32_t flags;     /* of the latest tick */
+    uint32_t flags;     /* of the last tick */
     uint32_t blocking;
     knurl_device *device;
     knurl_scene *scene;
@@ -69,7 +69,7 @@ static inline knurl_surface_id stage_add(stage *s, double stiffness, double z, i
     return id;
 }
 
-/* A loop on a plane at z = 0 (`stiffness` N/m, front up; 0: no surface) and, where `lid_z` is above 0, a lid over it.
+/* A loop on a plane at z = 0 (`stiffness` N/m, front up; 0: no surface) and, if `lid_z` is above 0, a lid over it.
  */
 static inline void stage_open(stage *s, double stiffness, double lid_z, double ramp_s, uint32_t blocking,
                               double heartbeat_s) {
@@ -130,7 +130,7 @@ static inline void stage_close(stage *s) {
     knurl_scene_destroy(s->scene);
 }
 
-/* 0, having said which promises were broken. */
+/* 0 after printing the broken promises. */
 static inline int stage_held(const stage *s, const char *what) {
     int held = 1;
     for (int i = 0; i < JUDGE_COUNT; i++) {

@@ -1,12 +1,12 @@
-/* The judge of samples/conform finds what is broken, each promise by itself, and nothing where all is kept. The device
- * has 5 N and 1 kHz: forces may grow by 1 N a tick, and ramps take 20 ticks. SPDX-License-Identifier: MIT */
+/* The judge of samples/conform detects each broken promise, and reports nothing otherwise. The device has 5 N and 1
+ * kHz: forces may grow by 1 N per tick, and ramps take 20 ticks. SPDX-License-Identifier: MIT */
 #include "judge.h"
 
 #include "support/close.h"
 
-static judge j; /* set up anew by each test */
+static judge j; /* reset by each test */
 
-static knurl_tick_output tick; /* the next one to tell */
+static knurl_tick_output tick; /* the next tick */
 
 static void begin(void) {
     knurl_device_info info;
@@ -41,14 +41,14 @@ static void tick_of(double x, double y) {
     tick_on(x, y, 0, 0.0);
 }
 
-/* From the force along x that there is to another, as fast as it may. */
+/* From the present force along x to another, as fast as allowed. */
 static void grow(double to) {
     while (j.force[0] < to) {
         tick_of(fmin(to, j.force[0] + 1.0), 0.0);
     }
 }
 
-/* How many promises are broken; -1 for a number that nobody expects. */
+/* The number of breaches of `promise`; -1 if another one is broken. */
 static int only(int promise) {
     for (int i = 0; i < JUDGE_COUNT; i++) {
         if (i != promise && j.breaches[i].count > 0) {
@@ -67,7 +67,7 @@ TEST(what_grows_slowly_falls_at_once_and_grows_again_is_kept) {
     tick_of(2.0, 0.0);
     tick_of(0.0, 0.0);
     tick_of(-1.0, 0.0);
-    tick_of(0.0, 0.9); /* the other way, from zero */
+    tick_of(0.0, 0.9); /* in the other direction, from zero */
     KEPT();
 }
 

@@ -1,10 +1,10 @@
-/* What a device's write() must never see, whatever a game does: turned workspaces, halts, pauses and gains after a
+/* Forces that a device's write() must never see: turned workspaces, halts, pauses and gains after a
  * squeeze, devices that are closed under their loops. SPDX-License-Identifier: MIT */
 #include "stage.h"
 
 #include <stdio.h>
 
-static stage s; /* set up anew by each test */
+static stage s; /* reset by each test */
 
 /* --- a workspace that turns --- */
 
@@ -50,7 +50,7 @@ TEST(a_workspace_that_turns_over_turns_the_force_no_faster_than_the_slew_limit) 
 
 /* --- after a squeeze --- */
 
-/* The lid comes down through hand and plane until it lets go, the hand 4 mm over the plane. */
+/* The lid comes down through hand and plane until it releases it, the hand 4 mm over the plane. */
 static void squeeze(double ramp_s, double heartbeat_s) {
     stage_open(&s, 1500.0, 0.005, ramp_s, 0, heartbeat_s);
     s.position[2] = 0.004;
@@ -128,7 +128,7 @@ TEST(a_gain_of_0_that_is_set_while_there_is_no_position_holds_when_there_is_one_
 
 /* --- the end --- */
 
-/* N: what is left when the call returns. */
+/* N: the force when the call returns. */
 static double left_when_closed(int threaded, uint32_t blocking) {
     static const double held[3] = {0.0, 0.0, 3.0};
     stage_open(&s, 0.0, 0.0, 0.02, blocking, 0.0);

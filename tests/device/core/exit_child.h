@@ -1,5 +1,5 @@
-/* Children that end with a force on their device's motors; what the motors do stands in memory that they share with the
- * test. SPDX-License-Identifier: MIT */
+/* Children that end with a force on their device's motors; the state of the motors is in memory that they share with
+ * the test. SPDX-License-Identifier: MIT */
 #ifndef KNURL_TEST_EXIT_CHILD_H
 #define KNURL_TEST_EXIT_CHILD_H
 
@@ -22,10 +22,10 @@
 typedef struct shared {
     home device;
     int64_t crashed_at;    /* ns */
-    uint32_t handled;      /* times that the handler from before ran */
-    int64_t handled_limp;  /* limp_since, as that one saw it */
-    uint32_t was_siginfo;  /* it got what it had asked for */
-    uint32_t reached;      /* what a child that lived on reached */
+    uint32_t handled;      /* calls of the earlier handler */
+    int64_t handled_limp;  /* limp_since in that handler */
+    uint32_t was_siginfo;  /* its SA_SIGINFO was honoured */
+    uint32_t reached;      /* progress of a child that survived */
     uint32_t crash_inside; /* 1: the callback crashes; 2: the exchange does */
 } shared;
 
@@ -65,7 +65,7 @@ static void crash_by(int number) {
     (void)raise(number);
 }
 
-/* Memory that may not be written: a fault that the kernel tells, not one that is sent. */
+/* Writes to read-only memory: a fault raised by the kernel, not a sent signal. */
 static void crash_truly(void) {
     volatile char *page = mmap(NULL, 4096, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     knurl_store_release(&m->crashed_at, now_ns());
@@ -125,7 +125,7 @@ static void install(void) {
     }
 }
 
-/* Runs a child; how it ended, as waitpid() says. */
+/* Runs a child. Returns its status from waitpid(). */
 static int run(void (*child)(int argument), int argument) {
     int status = 0;
     const pid_t pid = fork();
@@ -147,11 +147,11 @@ static void check_ended_by(int status, int number) {
 
 static void check_limp(void) {
     CHECK_SAME(m->device.motor[1], 0.0L);
-    assert_true(m->device.limp_since > 0);  /* since before the crash where the machine made the force too old */
+    assert_true(m->device.limp_since > 0);  /* before the crash if the machine was slow and the force became too old */
     assert_true(m->device.strongest > 0.0); /* there had been a force */
 }
 
-/* What forces do in a process that lives on: 1: they go out as before. */
+/* Forces in a process that survives: 1: they are sent as before. */
 static uint32_t still_pushes(void) {
     sleep_ns(30000000);
     return knurl_load_acquire(&m->device.limp_since) == 0;

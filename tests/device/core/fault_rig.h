@@ -9,16 +9,16 @@
 
 #include "base/vec3.h"
 
-static rig r; /* set up anew by each test */
+static rig r; /* reset by each test */
 
-/* What the rig's device does beyond what every rig does. */
+/* Additional behaviour of this rig's device. */
 static struct {
     uint64_t reopens;        /* atomic: tries */
     uint64_t fails;          /* tries that fail */
     int64_t tried_at[64];    /* ns, of each */
     uint64_t not_ready_from; /* reads from here to there bring nothing */
     uint64_t not_ready_to;
-    double speed; /* m/s along x by the rig's clock; 0: as every rig */
+    double speed; /* m/s along x by the rig's clock; 0: as in every rig */
     int64_t start;
 } extra;
 
@@ -89,7 +89,7 @@ static int32_t next_event(void) {
     return next_code(&r.device, KNURL_FAULT_OVERRUN);
 }
 
-/* The ramp from a write on that came after a halt: none, then a step more each. */
+/* Checks the ramp from the write after a halt on: zero, then one step more each. */
 static void check_ramp_up(uint64_t from) {
     for (uint64_t k = 0; k < 30; k++) {
         CHECK_CLOSE(r.written[from + k][1], fmin(1.0, (double)k / 21.0), 1e-12);

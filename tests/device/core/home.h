@@ -1,5 +1,5 @@
-/* A device that somebody built at home, as Knurl's caller gives it: functions over a struct. What it does is set from
- * the test's thread; what was asked of it is written down. SPDX-License-Identifier: MIT */
+/* A caller's home-built device: functions over a struct. The test's thread sets its behaviour and reads a record of its
+ * calls. SPDX-License-Identifier: MIT */
 #ifndef KNURL_TEST_HOME_H
 #define KNURL_TEST_HOME_H
 
@@ -16,31 +16,31 @@
 #define HOME_LOG   16384
 
 typedef struct home {
-    /* what it does; atomics */
+    /* behaviour; atomics */
     int32_t fault;      /* DOUBLE_ */
     int64_t takes_ns;   /* of a read */
     double position[3]; /* m */
     double speed;       /* m/s along x since `moves_from`, in steps of 1 ms */
-    int64_t moves_from; /* ns; 0: it does not */
+    int64_t moves_from; /* ns; 0: it does not move */
     uint32_t buttons;
     knurl_result read_gives, write_gives, start_gives, reopen_gives;
     int64_t hangs_for; /* ns, at most, with DOUBLE_HANG */
-    int64_t mute_ns;   /* of a read that nothing comes of */
-    /* what was asked of it; atomics */
+    int64_t mute_ns;   /* of a read without a result */
+    /* record of calls; atomics */
     uint64_t infos, starts, reads, writes, reopens, closes;
     uint64_t order;       /* calls so far */
-    uint64_t write_order; /* which call was the latest write, close: */
+    uint64_t write_order; /* index of the last write and close: */
     uint64_t close_order;
     uint32_t inside; /* threads that read or write now */
     uint32_t crowds; /* times that it was more than one */
     uint32_t late_calls;
     uint32_t strangers; /* reads and writes on other threads than the first one's */
     uintptr_t thread;
-    double rate;        /* Hz, of the latest start */
-    double motor[3];    /* N: what they get */
-    int64_t limp_since; /* ns; 0: they pull */
-    double strongest;   /* N of all that was ever written */
-    /* the I/O thread's; to be read when it has ended */
+    double rate;        /* Hz, of the last start */
+    double motor[3];    /* N */
+    int64_t limp_since; /* ns; 0: they have a force */
+    double strongest;   /* N: the largest force ever written */
+    /* used by the I/O thread; read it after its end */
     struct {
         int64_t at;
         double force[3];
@@ -59,7 +59,7 @@ static inline void sleep_ns(int64_t ns) {
     knurl_system_sleep_until_ns(now_ns() + ns);
 }
 
-/** Does `fault` from now on. */
+/** Injects `fault`. */
 static inline void home_inject(home *h, int fault) {
     __atomic_store_n(&h->fault, fault, __ATOMIC_SEQ_CST);
 }
@@ -108,7 +108,7 @@ static inline void home_hang(home *h) {
     }
 }
 
-/** Where it is now. */
+/** Its present position. */
 static inline void home_measure(const home *h, knurl_device_sample *sample) {
     const int fault = knurl_load_acquire(&h->fault);
     const int64_t from = knurl_load_relaxed(&h->moves_from);
@@ -144,7 +144,7 @@ static inline knurl_result home_read(void *user, knurl_device_sample *sample) {
     case DOUBLE_MUTE:
         sleep_ns(knurl_load_relaxed(&h->mute_ns));
         return home_leave(h, KNURL_ERROR_DEVICE_NOT_READY);
-    case DOUBLE_LATE: /* 20 ms, in four calls that keep to the 5 ms that they have */
+    case DOUBLE_LATE: /* 20 ms, in four calls that each return within their 5 ms */
         sleep_ns(5000000);
         if (++h->late_calls % 4 != 0) {
             return home_leave(h, KNURL_ERROR_DEVICE_NOT_READY);
@@ -189,7 +189,7 @@ static inline knurl_result home_write(void *user, const double force[3]) {
 static inline knurl_result home_reopen(void *user) {
     home *h = user;
     knurl_count_up(&h->reopens);
-    h->crowds += knurl_load_relaxed(&h->inside) > 0; /* nothing is read or written meanwhile */
+    h->crowds += knurl_load_relaxed(&h->inside) > 0; /* no read or write must be running */
     knurl_store_relaxed(&h->thread, (uintptr_t)0);
     return knurl_load_acquire(&h->fault) == DOUBLE_UNPLUG ? KNURL_ERROR_DEVICE_LOST
                                                           : knurl_load_relaxed(&h->reopen_gives);
@@ -217,7 +217,7 @@ static inline knurl_device_functions home_functions(home *h, uint32_t blocking) 
     return f;
 }
 
-/** A fresh one, opened. */
+/** A new one, opened. */
 static inline knurl_device *home_open(home *h, uint32_t blocking) {
     knurl_device *device = NULL;
     memset(h, 0, sizeof *h);
@@ -233,7 +233,7 @@ static inline knurl_device *home_open(home *h, uint32_t blocking) {
     return device;
 }
 
-/** The next event that is not `but` (0: any): its code, 0 where there is none. */
+/** The next event that is not `but` (0: any): its code, or 0. */
 static inline int32_t next_code(knurl_device *device, int32_t but) {
     knurl_device_event event;
     while (knurl_device_next_event(device, &event)) {
@@ -244,7 +244,7 @@ static inline int32_t next_code(knurl_device *device, int32_t but) {
     return 0;
 }
 
-/** Waits for an event of a code, passing over others; 0 where none comes within 5 s. */
+/** Waits for an event of a code, ignoring others; 0 if none comes within 5 s. */
 static inline uint32_t wait_for_event(knurl_device *device, int32_t code, knurl_device_event *event) {
     const int64_t until = now_ns() + INT64_C(5000000000);
     while (now_ns() < until) {

@@ -1,6 +1,6 @@
-/* A loop at 1 kHz over a device whose exchanges take 0.3 ms, beside a core that is busy: how late ticks come, how many
- * exchanges there are, what the device's code costs. Printed, for nothing about time can be asserted here: that is the
- * machine's. KNURL_DEVICE_SECONDS: how long, default 0.5. SPDX-License-Identifier: MIT */
+/* A loop at 1 kHz over a device whose exchanges take 0.3 ms, beside a busy core. Prints the lateness of ticks, the
+ * number of exchanges and the cost of the device's code, without assertions, because they depend on the machine.
+ * KNURL_DEVICE_SECONDS: duration, default 0.5. SPDX-License-Identifier: MIT */
 #include "home.h"
 
 #include "base/histogram.h"
@@ -12,14 +12,14 @@
 
 #define EXCHANGE_NS 300000
 
-/* Of the calling thread: ns on a processor. */
+/* CPU time of the calling thread, ns. */
 static int64_t cpu_ns(void) {
     struct timespec now;
     (void)clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
     return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
 }
 
-/* --- what the haptic thread spends on the device; linked with --wrap --- */
+/* --- the haptic thread's time in the device; linked with --wrap --- */
 
 static struct {
     knurl_histogram wall; /* ns of a read and a write */
@@ -51,7 +51,7 @@ knurl_result __wrap_knurl_device_write(knurl_device *device, const double force[
     return result;
 }
 
-/* What the measuring itself puts into spent.cpu, ns a tick; and into spent.wall. */
+/* The measurement's own share of spent.cpu and spent.wall, ns per tick. */
 static void measure_nothing(double *cpu_cost, double *wall_cost) {
     int64_t cpu_sum = 0;
     int64_t wall_sum = 0;
@@ -70,7 +70,7 @@ static void measure_nothing(double *cpu_cost, double *wall_cost) {
 static struct {
     int64_t first_cpu, latest_cpu; /* ns, of the I/O thread */
     uint64_t exchanges;            /* its own count */
-    double force;                  /* of the latest */
+    double force;                  /* of the last one */
 } lean;
 
 static void lean_info(void *user, knurl_device_info *info) {

@@ -1,4 +1,4 @@
-/* Libraries that are loaded at run time: all functions or none, and why not. SPDX-License-Identifier: MIT */
+/* Libraries that are loaded at run time: all functions, or an error with the reason. SPDX-License-Identifier: MIT */
 #include "support/close.h"
 
 #include "base/system.h"
@@ -7,12 +7,12 @@
 static double (*cosine)(double);
 static double (*other)(double);
 
-/* The mathematical library is there wherever this test is. */
+/* The math library is always present. */
 static const char *const present[] = {"libnothing-of-the-kind.so.7", "libm.so.6"};
 
 enum { THREADS = 4, ROUNDS = 200 };
 
-/* What several threads ask for at once. */
+/* Requested by several threads at once. */
 static uint32_t shared;
 static uint32_t refused;
 

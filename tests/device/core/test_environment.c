@@ -1,5 +1,5 @@
-/* Variables that name libraries and files, in a program that has more rights than who started it. Linked with --wrap
- * for what the kernel says of that. SPDX-License-Identifier: MIT */
+/* Variables that name libraries and files, in a program that has more rights than its user. Linked with --wrap to
+ * simulate the kernel's answer. SPDX-License-Identifier: MIT */
 #define _POSIX_C_SOURCE 200809L /* setenv() */
 
 #include "support/close.h"
@@ -19,7 +19,7 @@ unsigned long __wrap_getauxval(unsigned long type) {
     return type == AT_SECURE ? is_secure : __real_getauxval(type);
 }
 
-/* Whether opening fails over what the variable names. */
+/* True if opening fails because of the file that the variable names. */
 static int is_followed(const char *uri, const char *variable) {
     knurl_device *device = NULL;
     assert_int_equal(setenv(variable, "/nowhere/named", 1), 0);

@@ -1,4 +1,4 @@
-/* What knurl_device_zero_on_exit() does to the host's handlers of signals. SPDX-License-Identifier: MIT */
+/* knurl_device_zero_on_exit() and the host's signal handlers. SPDX-License-Identifier: MIT */
 #include "exit_child.h"
 
 static void on_plain(int number) {
@@ -57,7 +57,7 @@ static void be_signalled(int number) {
     exit(7);
 }
 
-/* SIGHUP that has a game read its settings anew is no end; but the exit() that follows is one. */
+/* SIGHUP makes a game reload its settings and is no end; the exit() that follows is one. */
 TEST_WITH(a_signal_that_the_host_handles_is_left_to_it_and_exit_zeroes, share, unshare) {
     static const int numbers[] = {SIGTERM, SIGHUP, SIGINT, SIGUSR1, SIGALRM, SIGPROF, SIGTSTP};
     for (size_t i = 0; i < COUNT_OF(numbers); i++) {
@@ -71,7 +71,7 @@ TEST_WITH(a_signal_that_the_host_handles_is_left_to_it_and_exit_zeroes, share, u
     }
 }
 
-/* As C# at a null reference: the handler mends what was wrong, and the program goes on. */
+/* As in C# at a null reference: the handler repairs the cause, and the program continues. */
 static void recover_from_a_fault(int flag) {
     handle(SIGSEGV, 0, on_plain);
     (void)open_and_push(1);
@@ -98,7 +98,7 @@ TEST(a_flag_that_is_none_is_refused) {
     check_message("expected 0 or 1, found 2");
 }
 
-/* A default that was installed with the flag of another kind of handler. */
+/* SIG_DFL installed with SA_SIGINFO. */
 static void crash_by_default(int number) {
     struct sigaction action;
     memset(&action, 0, sizeof action);
@@ -133,7 +133,7 @@ static void read_through_a_signal(int flags) {
     m->reached = read(ends_of_pipe[0], &byte, 1) == 1;
 }
 
-/* Else a game's reads and waits fail that never failed before. */
+/* Otherwise a game's reads and waits would start to fail. */
 TEST_WITH(calls_that_a_handler_from_before_did_not_interrupt_are_not_interrupted, share, unshare) {
     for (int restarts = 0; restarts < 2; restarts++) {
         memset(m, 0, sizeof *m);
@@ -167,7 +167,7 @@ static void ignore_some(int number) {
     crash_by(SIGHUP);
     crash_by(SIGINT);
     sleep_ns(20000000);
-    m->reached = m->device.limp_since == 0; /* it still pulls */
+    m->reached = m->device.limp_since == 0; /* the force is still there */
     crash_by(number);
 }
 

@@ -1,4 +1,4 @@
-/* What knurl_device_zero_on_exit() does at signals and at exit(). SPDX-License-Identifier: MIT */
+/* knurl_device_zero_on_exit() at signals and at exit(). SPDX-License-Identifier: MIT */
 #define _DEFAULT_SOURCE 1 /* MAP_ANONYMOUS */
 #define _ISOC11_SOURCE  1 /* quick_exit() */
 
@@ -26,7 +26,7 @@ static void crash_without_help(int number) {
     crash_by(number);
 }
 
-/* At times an I/O thread that got no time has just held a force for too old. */
+/* Sometimes a starved I/O thread has just zeroed a force that became too old. */
 TEST_WITH(without_having_asked_for_it_the_force_stays, share, unshare) {
     for (int k = 0; k < 5 && m->device.motor[1] < 1.0; k++) {
         memset(m, 0, sizeof *m);
@@ -53,7 +53,7 @@ TEST_WITH(a_fault_on_the_games_thread_or_in_a_tick_zeroes_the_force, share, unsh
     }
 }
 
-/* Nobody else can write then; but it ends. */
+/* No other thread can write then; but the process ends. */
 TEST_WITH(a_fault_in_the_exchange_itself_ends_it_after_the_wait, share, unshare) {
     check_ended_by(run(fault_with_force, 2), SIGSEGV);
 }
@@ -131,14 +131,14 @@ TEST_WITH(a_device_that_hangs_is_waited_for_20_ms_and_no_longer, share, unshare)
 
 /* --- devices --- */
 
-/* The first force of all, and while the device still answers to it: what was sent before was none. */
+/* During the exchange of the first force: only zeros were sent before. */
 static void crash_in_an_exchange(int number) {
     const double force[3] = {0.0, 1.0, 0.0};
     knurl_device *device = open_device(1);
     knurl_store_relaxed(&m->device.takes_ns, INT64_C(4000000));
     install();
     wait_for_count(&m->device.reads, 3);
-    while (knurl_load_acquire(&m->device.limp_since) > 0) { /* again where the machine made it too old */
+    while (knurl_load_acquire(&m->device.limp_since) > 0) { /* again if the machine was slow and it became too old */
         knurl_port_release_halt(device);
         if (knurl_device_write(device, force)) {
             _exit(104);
@@ -200,7 +200,7 @@ static int wait_for_full_force(void) {
 }
 
 static void stop_by(int number) {
-    (void)setpgid(0, 0); /* a group that no shell looks after is not stopped */
+    (void)setpgid(0, 0); /* an orphaned process group is not stopped */
     (void)open_and_push(1);
     install();
     for (int k = 0; k < 2; k++) {
@@ -211,7 +211,7 @@ static void stop_by(int number) {
     exit(0);
 }
 
-/* The first force that went out after `count` writes, and the last of all. */
+/* The first force that was sent after `count` writes, and the last one. */
 static double first_force_after(uint64_t count) {
     for (uint64_t i = count; i < m->device.writes; i++) {
         if (m->device.log[i % HOME_LOG].force[1] > 0.0) {
@@ -268,7 +268,7 @@ static void fork_and_exit(int number) {
     quick_exit(0);
 }
 
-/* Its child has no thread that could write; quick_exit() is seen, too. */
+/* A child has no thread that could write; quick_exit() is handled, too. */
 TEST_WITH(the_exit_of_a_child_that_was_forked_changes_nothing, share, unshare) {
     assert_int_equal(run(fork_and_exit, 0), 0);
     assert_int_equal(m->reached, 1);

@@ -1,4 +1,4 @@
-/* A device of a caller's functions: what is called when, and what a loop gets from it.
+/* A device of a caller's functions: the order of calls, and the results in a loop.
  * SPDX-License-Identifier: MIT */
 #include "home.h"
 
@@ -6,7 +6,7 @@
 
 #include <knurl/loop.h>
 
-static home h; /* set up anew by each test */
+static home h; /* reset by each test */
 
 /* --- not blocking --- */
 
@@ -58,8 +58,8 @@ TEST(halted_it_gets_no_force_until_the_halt_is_released) {
     CHECK_SAME(h.motor[0], 1.0L);
 }
 
-/* A device may be read faster than it measures: the latest position holds for 10 ms. Then it is silent, and is told so
- * once, until it is heard again. */
+/* A device may be read faster than it measures: the last position stays valid for 10 ms. Then it is silent, which is
+ * reported once, until it answers again. */
 TEST(without_a_new_position_the_latest_holds_for_10_ms_and_then_the_device_is_silent) {
     for (int i = 0; i < 2; i++) {
         knurl_device_event event;
@@ -67,7 +67,7 @@ TEST(without_a_new_position_the_latest_holds_for_10_ms_and_then_the_device_is_si
         SCOPED_DEVICE *device = home_open(&h, 0);
         home_place(&h, 0.01, 0.0, 0.0);
         assert_int_equal(knurl_device_read(device, &sample), KNURL_OK);
-        h.read_gives = i == 0 ? KNURL_ERROR_DEVICE_NOT_READY : KNURL_ERROR_IO; /* whatever else it may say */
+        h.read_gives = i == 0 ? KNURL_ERROR_DEVICE_NOT_READY : KNURL_ERROR_IO; /* any other error is the same */
         home_place(&h, 0.02, 0.0, 0.0);
         for (int k = 0; k < 10; k++) {
             assert_int_equal(knurl_device_read(device, &sample), KNURL_OK);
@@ -160,7 +160,7 @@ TEST(closing_zeroes_the_force_and_then_closes_once) {
         knurl_device_close(device);
         assert_int_equal(h.closes, 1);
         assert_true(h.write_order > 0 && h.write_order < h.close_order);
-        assert_true(h.order == h.close_order); /* nothing comes after it */
+        assert_true(h.order == h.close_order); /* it is the last call */
         assert_true(h.limp_since > 0);
     }
     knurl_device_close(NULL);
@@ -185,7 +185,7 @@ TEST(of_a_lost_device_nothing_is_asked_but_to_close) {
         assert_int_equal(knurl_device_write(device, force), KNURL_ERROR_DEVICE_LOST);
         assert_true(h.order == order);
         assert_int_equal(knurl_port_is_halted(device), 1);
-        assert_int_equal(next_code(device, 0), blocking ? 0 : KNURL_FAULT_LOST); /* told once */
+        assert_int_equal(next_code(device, 0), blocking ? 0 : KNURL_FAULT_LOST); /* reported once */
         assert_int_equal(next_code(device, 0), 0);
         knurl_device_close(device);
         assert_true(h.order == order + 1 && h.closes == 1);
@@ -233,7 +233,7 @@ TEST(what_cannot_be_reopened_stays_lost) {
 }
 
 TEST(it_is_started_before_it_is_read) {
-    for (int turn = 0; turn < 20; turn++) { /* the order of threads is not given */
+    for (int turn = 0; turn < 20; turn++) { /* the order of threads is undefined */
         knurl_device *device = NULL;
         memset(&h, 0, sizeof h);
         const knurl_device_functions f = home_functions(&h, 1);

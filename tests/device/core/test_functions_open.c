@@ -1,14 +1,14 @@
-/* A device of a caller's functions: what must be there, what may fail, and what it is told to be. What it does then:
- * test_functions.c. SPDX-License-Identifier: MIT */
+/* A device of a caller's functions: required functions, failures, and its information. Its operation: test_functions.c.
+ * SPDX-License-Identifier: MIT */
 #include "home.h"
 
 #include "device/driver.h"
 
 #include <pthread.h>
 
-static home h; /* set up anew by each test */
+static home h; /* reset by each test */
 
-/* --- what the system may refuse; linked with --wrap --- */
+/* --- failures of the system; linked with --wrap --- */
 
 static int refuse_memory;
 static int refuse_threads;
@@ -25,7 +25,7 @@ int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *how, void *(*
     return refuse_threads ? 11 /* EAGAIN */ : __real_pthread_create(thread, how, entry, argument);
 }
 
-/* --- what must be there --- */
+/* --- required functions --- */
 
 TEST(a_function_that_is_required_and_missing_is_named) {
     static const char *const names[] = {"get_info", "read", "write"};
@@ -42,13 +42,13 @@ TEST(a_function_that_is_required_and_missing_is_named) {
     }
 }
 
-/* A force is played for 10 ms at most, which two ticks have to fit into. */
+/* A force is played for 10 ms at most, which must span two ticks. */
 TEST(what_blocks_wants_200_ticks_a_second) {
     knurl_device *device = home_open(&h, 1);
     char nothing = 0;
     CHECK_REFUSED(knurl_device_start(device, 199.0), KNURL_ERROR_UNSUPPORTED, nothing);
     check_message("200");
-    assert_int_equal(h.starts, 1); /* nobody was bothered with it */
+    assert_int_equal(h.starts, 1); /* the refused start was not passed on */
     assert_int_equal(knurl_device_start(device, 200.0), KNURL_OK);
     knurl_device_close(device);
     device = home_open(&h, 0);
@@ -56,7 +56,7 @@ TEST(what_blocks_wants_200_ticks_a_second) {
     knurl_device_close(device);
 }
 
-static double told_force; /* what the next one says of its motors */
+static double told_force; /* the max_force of the next one */
 
 static void tell_force(void *user, knurl_device_info *info) {
     (void)user;
@@ -119,7 +119,7 @@ TEST(a_start_that_fails_is_passed_on) {
         assert_int_equal(h.starts, 1);
         const uint64_t order = h.order;
         sleep_ns(5000000);
-        assert_int_equal(knurl_load_acquire(&h.order), order); /* no thread goes on with it */
+        assert_int_equal(knurl_load_acquire(&h.order), order); /* no thread still uses it */
         device = home_open(&h, blocking);
         h.start_gives = KNURL_ERROR_UNSUPPORTED;
         assert_int_equal(knurl_device_start(device, 3000.0), KNURL_ERROR_UNSUPPORTED);
@@ -158,7 +158,7 @@ static void open_by(const knurl_driver *driver, knurl_result result, knurl_resul
     assert_ptr_equal(opened, expected ? NULL : &device);
 }
 
-/* Its thread and its port are open by then. */
+/* Its thread runs and its port is open by then. */
 TEST(a_driver_whose_device_cannot_be_opened_or_started_closes_it) {
     static const knurl_driver starts = {.uri = "starts", .close = count_close, .get_info = tell_one_newton};
     static const knurl_driver fails = {
@@ -169,11 +169,11 @@ TEST(a_driver_whose_device_cannot_be_opened_or_started_closes_it) {
     assert_string_equal(knurl_error_message(), "unplugged before its start at 1000 Hz");
 }
 
-/* --- what it is --- */
+/* --- its information --- */
 
 static void tell_little(void *user, knurl_device_info *info) {
     (void)user;
-    memset(info->name, 'x', sizeof info->name); /* and no end */
+    memset(info->name, 'x', sizeof info->name); /* not terminated */
     info->max_force = 1.0;
 }
 

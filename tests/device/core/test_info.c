@@ -1,5 +1,5 @@
-/* A device tells numbers that limits and protections are made of: each in its range, or the device is not opened.
- * Ranges are those of device.h's comments. SPDX-License-Identifier: MIT */
+/* Limits and protections depend on a device's information: each number must be in its range, or the device is not
+ * opened. Ranges are from the comments in device.h. SPDX-License-Identifier: MIT */
 #include "support/double.h"
 #include "support/fake.h"
 #include "support/idle_device.h"
@@ -121,7 +121,7 @@ TEST(a_workspace_is_not_inside_out) {
     check_message("expected workspace_min[0] up to workspace_max[0], found 0.5 and 0 m");
 }
 
-/* Told well when it is opened and badly later: it is not started and no loop takes it; told well again, it goes on. */
+/* Valid at the opening and invalid later: it is not started, and no loop accepts it; valid again, it works. */
 TEST(what_a_device_tells_later_is_checked_as_well) {
     SCOPED_DEVICE *device = NULL;
     knurl_device_info info;

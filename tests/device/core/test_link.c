@@ -1,5 +1,5 @@
-/* The I/O thread: the newest force out, the newest position in, on virtual time. Bounds are an exchange's period (1 ms)
- * beyond what is promised. SPDX-License-Identifier: MIT */
+/* The I/O thread: the newest force out, the newest position in, on virtual time. Bounds are the promised ones plus an
+ * exchange's period (1 ms). SPDX-License-Identifier: MIT */
 #include "home.h"
 
 #include "device/link.h"
@@ -7,11 +7,11 @@
 
 #include <knurl/loop.h>
 
-static home h; /* set up anew by each test */
+static home h; /* reset by each test */
 
 #define PERIOD_NS 1000000
 
-/* Reads and writes once a millisecond for `ms`, as a loop would without a loop's own care. */
+/* Reads and writes once a millisecond for `ms`, like a loop without its protections. */
 static void tick_for(knurl_device *device, int ms, double force) {
     const double f[3] = {0.0, force, 0.0};
     int64_t next = now_ns();
@@ -24,7 +24,7 @@ static void tick_for(knurl_device *device, int ms, double force) {
     }
 }
 
-/* How many events of a code there are now, of all. */
+/* Removes all events. Returns the number of those with a code. */
 static int count_events(knurl_device *device, int32_t code) {
     knurl_device_event event;
     int count = 0;
@@ -56,7 +56,7 @@ TEST(forces_arrive_newest_first_and_none_comes_after_a_newer_one) {
         last = fmax(force, last);
     }
     assert_true(different >= 20);
-    assert_true(different <= 200); /* some were never played: newer ones were there */
+    assert_true(different <= 200); /* some were replaced by newer ones and never played */
 }
 
 TEST(a_force_that_is_written_between_two_exchanges_goes_out_with_the_next_one) {
@@ -90,7 +90,7 @@ TEST(a_force_that_nobody_renews_is_played_for_10_ms_and_then_zeroed) {
     const int64_t limp = knurl_load_acquire(&h.limp_since);
     assert_true(limp - written > 10000000 && limp - written <= 10000000 + PERIOD_NS);
     assert_true(limp - event.time_ns <= PERIOD_NS);
-    assert_int_equal(next_code(device, 0), 0); /* told once */
+    assert_int_equal(next_code(device, 0), 0); /* reported once */
     knurl_device_close(device);
     uint64_t forces = 0;
     for (uint64_t i = 0; i < h.writes; i++) {
@@ -175,7 +175,7 @@ TEST(a_mute_device_is_silent_after_10_ms_and_its_force_is_zeroed) {
     const int64_t limp = knurl_load_acquire(&h.limp_since);
     assert_true(limp > 0 && limp - injected <= 10000000 + h.mute_ns + PERIOD_NS); /* an exchange takes mute_ns */
     assert_int_equal(knurl_device_read(device, &sample), KNURL_ERROR_DEVICE_NOT_READY);
-    assert_int_equal(count_events(device, KNURL_FAULT_SILENT), 0); /* told once */
+    assert_int_equal(count_events(device, KNURL_FAULT_SILENT), 0); /* reported once */
 }
 
 TEST(a_second_of_silence_is_a_loss) {
@@ -229,7 +229,7 @@ static void pull(uint64_t tick, const knurl_device_sample *sample, double force[
     force[0] = 1.0;
 }
 
-/* As long as it is silent: the latest position still held when the force had been zeroed, and the loop came back. */
+/* Regression: the last position was still valid after the force was zeroed, so the loop resumed during the silence. */
 TEST(a_loop_does_not_resume_while_the_device_is_silent) {
     for (int phase = 0; phase < 5; phase++) {
         knurl_loop_desc desc;
@@ -242,7 +242,7 @@ TEST(a_loop_does_not_resume_while_the_device_is_silent) {
         desc.watchdog_s = 0.0;
         assert_int_equal(knurl_loop_create(&desc, &loop), KNURL_OK);
         assert_int_equal(knurl_loop_start(loop), KNURL_OK);
-        knurl_store_relaxed(&h.mute_ns, (int64_t)1000000); /* noticed as early as can be */
+        knurl_store_relaxed(&h.mute_ns, (int64_t)1000000); /* noticed as early as possible */
         sleep_ns(30000000 + 300000 * phase);
         (void)next_code(device, -1);
         home_inject(&h, DOUBLE_MUTE);
@@ -282,7 +282,7 @@ TEST(while_an_exchange_hangs_nobody_waits_and_the_reader_says_so_once) {
         assert_true(now_ns() == before); /* the exchange hangs for 300 ms */
         sleep_ns(1000000);
     }
-    assert_in_range(not_ready, 88, 90); /* 100 reads but the 10 ms and two periods that the latest position holds */
+    assert_in_range(not_ready, 88, 90); /* 100 reads, less 10 ms and two periods in which the last position is valid */
     assert_int_equal(count_events(device, KNURL_FAULT_SILENT), 1);
     assert_int_equal(knurl_port_is_halted(device), 1);
     home_inject(&h, DOUBLE_WELL);
@@ -301,7 +301,7 @@ TEST(a_hang_that_ends_without_an_answer_is_still_one_silence) {
     home_inject(&h, DOUBLE_WELL);
 }
 
-/* A link without its thread, as the reader finds it when the exchange after the latest position was counted, and the
+/* A link without its thread, in the reader's view after the exchange following the last position was counted and the
  * next one hangs. */
 TEST(a_hang_is_seen_whatever_was_counted_before_it) {
     static knurl_link link;

@@ -1,6 +1,6 @@
-/* What the haptic thread does with a device that has an I/O thread asks for no memory, takes no lock, waits for nobody,
- * and asks the kernel for nothing. Linked with --wrap for the functions that would (CMakeLists.txt), and run where the
- * kernel kills whoever asks. SPDX-License-Identifier: MIT */
+/* The haptic thread's calls to a device with an I/O thread allocate no memory, take no lock, never wait, and make no
+ * system call. Linked with --wrap for the functions that would (CMakeLists.txt), and run under seccomp, which kills on
+ * a system call. SPDX-License-Identifier: MIT */
 #define _DEFAULT_SOURCE 1 /* syscall() */
 
 #include "home.h"
@@ -23,7 +23,8 @@
 #define SANITIZED 0
 #endif
 
-/* Of what is wrapped, by this thread; and looks at the clock, apart: the newest force carries its time. */
+/* Calls of wrapped functions by this thread; readings of the clock are counted separately, because each force has a
+ * time stamp. */
 static __thread uint64_t calls;
 static __thread uint64_t looks;
 
@@ -77,12 +78,12 @@ TEST(reading_and_writing_ask_for_nothing_but_the_time) {
             assert_true(looks - looks_before <= 120); /* one a force, and one an event */
             sleep_ns(500000);
         }
-        assert_true(calls >= 40); /* the sleeps: the wrapping works */
+        assert_true(calls >= 40); /* the sleeps, so the wrapping works */
         home_inject(&h, DOUBLE_WELL);
     }
 }
 
-/* A link without its thread, for a child that may not ask the kernel for anything. */
+/* A link without its thread, for a child that may not make system calls. */
 static knurl_link io;
 static knurl_device linked;
 
@@ -102,7 +103,7 @@ static void strictly(int ask_for_something) {
     }
 }
 
-/* The kernel kills whoever asks for anything but the end. (Its own strict mode takes the clock's counter away, too.) */
+/* The kernel kills on any system call but exit. (Its strict mode would also disable the CPU's time stamp counter.) */
 static int be_strict(void) {
     struct sock_filter rules[] = {
         BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(struct seccomp_data, nr)),

@@ -1,5 +1,5 @@
-/* The loop when its device fails: lost, found again, without a position. By the test's own clock where that is
- * possible. Devices that own the servo thread are in test_serve.c. SPDX-License-Identifier: MIT */
+/* The loop when its device fails: lost, found again, without a position. By the test's own clock if possible. Devices
+ * that own the servo thread are in test_serve.c. SPDX-License-Identifier: MIT */
 #include "fault_rig.h"
 
 /* --- lost and found --- */
@@ -14,10 +14,10 @@ TEST_WITH(a_stepped_loop_looks_for_its_device_every_beat_and_comes_back_by_the_r
     const knurl_loop_stats stats = rig_stats(&r);
     assert_int_equal(stats.state, KNURL_LOOP_RUNNING);
     assert_int_equal(extra.reopens, 10);
-    assert_int_equal(stats.absences, 10); /* the beat that noticed it, and nine that tried in vain */
+    assert_int_equal(stats.absences, 10); /* the beat that noticed it, and nine failed attempts */
     assert_int_equal(stats.ticks, 190);
     assert_int_equal(stats.absent, 0);
-    assert_int_equal(r.out_of_order, 0); /* the callback's ticks go on where they were */
+    assert_int_equal(r.out_of_order, 0); /* the callback's ticks continue their count */
     assert_int_equal(r.writes, 190);
     CHECK_SAME(r.written[69][1], 1.0L);
     check_ramp_up(70);
@@ -142,12 +142,12 @@ TEST_WITH(a_loop_can_be_destroyed_in_every_state, NULL, end_rig) {
         const uint64_t reads = r.reads;
         const uint64_t tries = extra.reopens;
         sleep_ns(3000000);
-        assert_true(r.reads == reads && extra.reopens == tries); /* nobody goes on with it */
+        assert_true(r.reads == reads && extra.reopens == tries); /* no thread uses it any more */
         assert_true(r.writes == 0 || r.writes == 20 || r.written[r.writes - 1][1] == 0.0);
     }
 }
 
-/* What is noticed while writing is no other loss than what is noticed while reading. */
+/* A loss noticed while writing is handled like one noticed while reading. */
 TEST_WITH(a_device_that_is_lost_while_it_is_written_is_halted_and_its_force_resumes, NULL, end_rig) {
     init();
     r.desc.reconnect = 1;
@@ -195,13 +195,13 @@ TEST_WITH(a_beat_without_a_position_writes_no_force_and_asks_for_none, NULL, end
     assert_int_equal(rig_stats(&r).absent, 0);
 }
 
-/* A device that does not zero its force by itself plays its last force for ever. */
+/* A device that does not zero its force by itself plays its last force without end. */
 TEST_WITH(at_the_end_the_last_that_is_written_is_no_force_however_it_comes_to_that, NULL, end_rig) {
     for (int i = 0; i < 6; i++) {
         init();
         r.desc.ramp_s = i % 2 ? 0.02 : 0.0;
         r.desc.tick_limit = i < 4 ? 50 : 0;
-        extra.not_ready_from = i < 2 ? 1000 : 53; /* in the middle of the ramp, at its beginning */
+        extra.not_ready_from = i < 2 ? 1000 : 53; /* in the middle of the ramp, at its start */
         extra.not_ready_from = i >= 4 ? 50 : extra.not_ready_from;
         extra.not_ready_to = 2000;
         rig_create(&r);
@@ -225,7 +225,7 @@ static knurl_result write_and_see_halt(knurl_device *device, const double force[
     return rig_write(device, force);
 }
 
-/* What an I/O thread still has is the force from before: it must not be played between the halt and the ramp. */
+/* An I/O thread still has the old force, which must not be played between the halt and the ramp. */
 TEST_WITH(a_halt_lasts_until_the_force_that_begins_the_ramp_is_written, NULL, end_rig) {
     init();
     extra_driver.write = write_and_see_halt;

@@ -1,10 +1,10 @@
-/* The loop when its game gives no sign of life, and when ticks come late. By the test's own clock where that is
- * possible. SPDX-License-Identifier: MIT */
+/* The loop without heartbeats from its game, and with late ticks. By the test's own clock if possible.
+ * SPDX-License-Identifier: MIT */
 #include "fault_rig.h"
 
 /* --- heartbeat --- */
 
-/* At tick t, counted from 0: with the last sign before tick s, t - s ticks of 1 ms are silent. */
+/* At tick t, counted from 0: with the last heartbeat before tick s, t - s ticks of 1 ms are silent. */
 TEST_WITH(without_a_sign_of_life_the_force_goes_down_by_the_ramp_and_comes_back_by_it, NULL, end_rig) {
     for (int threaded = 0; threaded < 2; threaded++) {
         knurl_device_event event;
@@ -13,7 +13,7 @@ TEST_WITH(without_a_sign_of_life_the_force_goes_down_by_the_ramp_and_comes_back_
         r.desc.tick_limit = threaded ? 130 : 0;
         rig_create(&r);
         if (threaded) {
-            rig_run(&r); /* by the test's clock: the same */
+            rig_run(&r); /* the same by the test's clock */
         } else {
             assert_int_equal(knurl_loop_step(r.loop, 130), KNURL_OK);
         }
@@ -27,7 +27,7 @@ TEST_WITH(without_a_sign_of_life_the_force_goes_down_by_the_ramp_and_comes_back_
         for (int k = 73; k < 130; k++) {
             CHECK_SAME(r.written[k][1], 0.0L);
         }
-        assert_int_equal(r.calls, 130); /* the callback goes on */
+        assert_int_equal(r.calls, 130); /* the callback continues */
         assert_int_equal(knurl_device_next_event(&r.device, &event), 1);
         assert_int_equal(event.code, KNURL_FAULT_HEARTBEAT);
         CHECK_CLOSE(event.value, 0.0505, 0.00051);
@@ -75,7 +75,7 @@ TEST_WITH(a_game_that_dies_and_comes_back_half_way_is_taken_from_there, NULL, en
     assert_true(r.written[24][1] > low);
 }
 
-/* The force comes back when the game does, and that is when it is told. */
+/* The force returns with the game's heartbeats, and that is when it is reported. */
 TEST_WITH(while_the_game_gives_no_sign_of_life_nothing_is_resumed, NULL, end_rig) {
     init();
     r.desc.heartbeat_s = 0.02;
@@ -121,7 +121,7 @@ TEST_WITH(a_row_of_late_ticks_is_one_event_with_the_first_ones_lateness, NULL, e
     assert_int_equal(rig_stats(&r).overruns, 6);
 }
 
-/* While nobody read, the hand went on. */
+/* The hand moved on between the reads. */
 TEST_WITH(after_a_late_tick_a_hand_may_have_moved_on, NULL, end_rig) {
     static int64_t late[100];
     memset(late, 0, sizeof late);
@@ -138,7 +138,7 @@ TEST_WITH(after_a_late_tick_a_hand_may_have_moved_on, NULL, end_rig) {
     assert_int_equal(next_event(), 0);
 }
 
-/* A process that was stopped, or a machine that slept: nobody knows what the hand has done meanwhile. */
+/* A process was stopped, or a machine slept: the hand's motion meanwhile is unknown. */
 TEST_WITH(a_loop_that_wakes_after_a_gap_zeroes_the_force_tells_it_and_ramps, NULL, end_rig) {
     static const int64_t gaps[] = {51000000, INT64_C(2000000000)};
     for (size_t i = 0; i < COUNT_OF(gaps); i++) {

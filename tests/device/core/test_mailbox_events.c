@@ -1,4 +1,4 @@
-/* What threads hand each other without waiting: the newest of something, and the latest events.
+/* Lock-free passing between threads: the newest value, and the last events.
  * SPDX-License-Identifier: MIT */
 #include "support/close.h"
 
@@ -15,7 +15,7 @@
 
 /* --- mailbox --- */
 
-/* Long enough to be torn; every word says the same. */
+/* Long enough to be torn; all words are equal. */
 typedef struct letter {
     uint64_t words[16];
 } letter;
@@ -43,12 +43,12 @@ TEST(a_mailbox_gives_the_newest_once) {
         }
         assert_int_equal(knurl_mailbox_take(&post.box), 1);
         assert_int_equal(post.slots[post.box.front].words[0], 101 * burst);
-        assert_int_equal(knurl_mailbox_take(&post.box), 0); /* what was taken stays readable */
+        assert_int_equal(knurl_mailbox_take(&post.box), 0); /* the taken value stays readable */
         assert_int_equal(post.slots[post.box.front].words[15], 101 * burst);
     }
 }
 
-/* Whatever is posted and taken, in whatever order, writer, reader and middle have a slot each. */
+/* In any order of posts and takes, writer, reader and middle have one slot each. */
 TEST(the_three_slots_are_never_shared) {
     uint64_t random = 5;
     memset(&post, 0, sizeof post);
@@ -145,7 +145,7 @@ TEST(the_ring_keeps_the_latest_64_and_counts_all) {
 
 static uint32_t writers; /* atomic: at work */
 
-/* Values tell writer and number, codes the number: what is torn does not fit together. */
+/* Values contain writer and number, codes the number, so torn events are detected. */
 static void *report_many(void *which) {
     const int32_t base = *(const int32_t *)which;
     for (int32_t i = 0; i < REPORTS; i++) {
@@ -181,12 +181,12 @@ TEST(two_writers_and_a_reader_see_nothing_torn_and_each_writers_events_in_order)
         assert_int_equal(pthread_join(threads[i], NULL), 0);
     }
     assert_true(ring.head == 2 * (uint64_t)REPORTS);
-    assert_true(seen >= 60); /* the last 64, but for one that a writer was held up in */
+    assert_true(seen >= 60); /* the last 64, less one whose writer was held up */
     assert_true(latest[0] == REPORTS - 1 || latest[1] == REPORTS - 1);
 }
 
 /* A thread may be held up anywhere, also between taking its number and writing its event down, while others report more
- * than the ring has room for. What it writes in the end must not be taken for theirs, nor hold up what comes after. */
+ * than the ring has room for. Its late write must neither be read as one of theirs, nor block later events. */
 TEST(a_writer_that_is_held_up_for_a_whole_ring_costs_one_event_and_tears_none) {
     for (int is_inside = 0; is_inside < 2; is_inside++) {
         knurl_device_event event;
@@ -210,7 +210,7 @@ TEST(a_writer_that_is_held_up_for_a_whole_ring_costs_one_event_and_tears_none) {
         }
         assert_in_range(count, 63, 64);
         CHECK_SAME(event.value, 99.0L);
-        report_numbers(100, 300); /* the slot is as good as ever */
+        report_numbers(100, 300); /* the slot works as before */
         for (int number = 236; number < 300; number++) {
             assert_int_equal(knurl_events_next(&ring, &event), 1);
             CHECK_SAME(event.value, (long double)number);
@@ -220,7 +220,7 @@ TEST(a_writer_that_is_held_up_for_a_whole_ring_costs_one_event_and_tears_none) {
 
 /* --- names --- */
 
-/* From the header's documentation, written out anew: a constant that moves breaks callers that were compiled before. */
+/* Copied from the header's documentation: a changed constant breaks compiled callers. */
 static const struct {
     int32_t code;
     int32_t number;

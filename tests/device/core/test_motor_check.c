@@ -1,4 +1,4 @@
-/* The check that motors push where they are told to: on a fake device behind a caller's functions whose motors may be
+/* The check for backwards motors: on a fake device behind a caller's functions whose motors may be
  * wired backwards, and a study over simulated hands. SPDX-License-Identifier: MIT */
 #include "support/close.h"
 
@@ -19,8 +19,8 @@
 typedef struct wired {
     knurl_device *inner; /* fake */
     double sign[3];      /* of the motors */
-    double sent[3];      /* N: the latest force */
-    double strongest;    /* N: of all that was sent */
+    double sent[3];      /* N: the last force */
+    double strongest;    /* N: the largest ever sent */
     double deepest;      /* m */
 } wired;
 
@@ -97,7 +97,7 @@ static void end(bench *b) {
     knurl_device_close(b->device.inner);
 }
 
-/* The first fault; *count: how many events there were. */
+/* The first fault; *count: number of events. */
 static int32_t first_fault(bench *b, int *count) {
     knurl_device_event event;
     int32_t first = 0;
@@ -135,7 +135,7 @@ TEST(motors_that_are_right_get_the_whole_force_after_some_pulses) {
     assert_true(b.device.strongest <= 1.0 + 1e-12);
     assert_int_equal(knurl_loop_step(b.loop, 1500), KNURL_OK);
     assert_int_equal(first_fault(&b, &count), 0);
-    assert_true(b.device.sent[1] > 1.2); /* 4 mm: 700 N/m of the hand against 500 N/m */
+    assert_true(b.device.sent[1] > 1.2); /* 4 mm deep: 700 N/m of the hand against 500 N/m */
     end(&b);
 }
 
@@ -191,7 +191,7 @@ static const maker makers[] = {{0.2, 1.5, 0.5, 6e-5, 8.9, 2},
 
 static const char *const motions[] = {"rests", "presses", "taps", "jerks", "pulls away", "trembles"};
 
-/* Where the motors send a force along y: right; backwards; a Falcon's motors 0, 1 and 2 backwards, from its Jacobian.
+/* The motors' response to a force along y: right; backwards; a Falcon's motors 0, 1 and 2 backwards, from its Jacobian.
  */
 static const double wirings[][3] = {{0, 1, 0}, {0, -1, 0}, {0.37, -0.22, 1.70}, {-0.67, 0.29, -1.29}};
 
@@ -206,7 +206,7 @@ typedef struct trial {
 } trial;
 
 typedef struct verdict {
-    int fault;    /* 1 + axis; 0: none */
+    int fault;    /* 1 + axis; 0: no fault */
     int passed;   /* 1: y passed */
     double after; /* s since the first contact */
     double moved; /* m since then */
@@ -223,7 +223,7 @@ static double noise(uint64_t *random) { /* variance 1 */
     return sum;
 }
 
-/* m: the height that the hand wants. */
+/* m: the hand's target height. */
 static double height(const trial *t, double time) {
     const double w = 6.283185307179586 * time;
     switch (t->motion) {
@@ -255,7 +255,7 @@ static knurl_plant_config plant_of(const maker *m, const hand *held) {
                                 .exact = 1};
 }
 
-/* Where the hand wants to be, how fast, and its tremor: noise through three filters. */
+/* The hand's target and velocity, and its tremor: noise through three filters. */
 typedef struct aim {
     double target[3], speed[3], shake[3];
 } aim;
@@ -328,10 +328,10 @@ static void add(count *c, const verdict *v) {
     c->moved += v->fault ? v->moved : 0.0;
 }
 
-/* Each device, floor and motion in a hand. */
+/* Tries each device, floor and motion in a hand. */
 static count try_hand(const hand *held, int motion, int wiring) {
     static const double floors[] = {300.0, 1500.0};
-    const char *asked = getenv("KNURL_TEST_RUNS"); /* of each kind */
+    const char *asked = getenv("KNURL_TEST_RUNS"); /* runs of each kind */
     const int runs = asked ? (int)strtol(asked, NULL, 10) : 1;
     count c = {0};
     for (size_t d = 0; d < COUNT_OF(makers); d++) {
@@ -354,7 +354,7 @@ static count try_hand(const hand *held, int motion, int wiring) {
     return c;
 }
 
-/* 1: a hand without a spring only lets go. */
+/* 1: a hand without a spring can only release. */
 static int is_idle(const hand *held, int motion) {
     return held->stiffness == 0.0 && motion > 0;
 }

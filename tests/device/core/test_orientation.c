@@ -64,7 +64,7 @@ static knurl_result read_turned(void *user, knurl_device_sample *sample) {
     (void)user;
     memset(sample->position, 0, sizeof sample->position);
     sample->buttons = 0;
-    if (told[3] != 2.0) { /* else it is as a caller's that knows of none */
+    if (told[3] != 2.0) { /* otherwise it is like a device without orientation */
         memcpy(sample->orientation, told, sizeof told);
     }
     return KNURL_OK;

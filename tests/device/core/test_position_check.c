@@ -1,5 +1,5 @@
-/* Positions that no hand can have brought about: not finite, or a jump. The force is zero while they last, and what
- * comes after is a new beginning. By read counts, never by the clock. SPDX-License-Identifier: MIT */
+/* Impossible positions: not finite, or a jump. The force is zero while they last, and starts anew afterwards. By read
+ * counts, never by the clock. SPDX-License-Identifier: MIT */
 #include "home.h"
 #include "support/scenes.h"
 
@@ -9,7 +9,7 @@
 
 #include <knurl/loop.h>
 
-static home h; /* set up anew by each test */
+static home h; /* reset by each test */
 
 static const double push[3] = {1.0, 0.0, 0.0};
 
@@ -19,7 +19,7 @@ static knurl_device *open_at(double rate) {
     return device;
 }
 
-/* Reads at a place, and then tries to push. */
+/* Reads at a position, and then tries to push. */
 static knurl_result read_at(knurl_device *device, double x, double y, double z) {
     knurl_device_sample sample;
     memset(&sample, 0x55, sizeof sample);
@@ -38,7 +38,7 @@ static knurl_result read_at(knurl_device *device, double x, double y, double z) 
     return result;
 }
 
-/* The events there are: how many, and the latest of them. */
+/* Removes all events. Returns their number, and the last of them. */
 static int drain(knurl_device *device, knurl_device_event *latest) {
     int count = 0;
     while (knurl_device_next_event(device, latest)) {
@@ -73,7 +73,7 @@ TEST(a_first_position_that_is_not_finite_is_none) {
     assert_int_equal(drain(device, &event), 1);
 }
 
-/* Every second position: a converter with a loose contact, say. The ring of events has 64 places. */
+/* Every second position is bad, such as from a loose contact. The ring of events has 64 places. */
 TEST(what_is_not_finite_now_and_then_is_one_fault_until_it_has_settled) {
     knurl_device_event event;
     SCOPED_DEVICE *device = open_at(1000.0);
@@ -87,13 +87,13 @@ TEST(what_is_not_finite_now_and_then_is_one_fault_until_it_has_settled) {
     }
     assert_int_equal(read_at(device, 0.0, 0.0, 0.0), KNURL_OK);
     assert_int_equal(read_at(device, (double)NAN, 0.0, 0.0), KNURL_ERROR_DEVICE_NOT_READY);
-    assert_int_equal(drain(device, &event), 1); /* a new one */
+    assert_int_equal(drain(device, &event), 1); /* a new fault */
 }
 
 /* --- jumps --- */
 
-/* As far as a hand can go at 10 m/s since the position before, but 20 mm at least: a device that measures at 1 kHz
- * moves in steps when it is read faster. */
+/* The distance that a hand can move at 10 m/s since the previous position, but at least 20 mm: a device that measures
+ * at 1 kHz moves in steps when it is read faster. */
 TEST(the_limit_is_10_metres_a_second_and_20_mm_at_least) {
     static const struct {
         double rate, limit;
@@ -159,7 +159,7 @@ TEST(a_start_forgets_where_it_was) {
 
 /* --- no false alarms --- */
 
-/* The hand's way at t, measured by the device once every `native` s. */
+/* The hand's position at t, measured by the device every `native` s. */
 static double measured(double t, double native, double speed) {
     const double at = native * floor(t / native + 1e-9);
     return 0.02 * sin(20.0 * at) + speed * at;
@@ -177,14 +177,14 @@ TEST(a_device_of_1_khz_in_a_fast_hand_is_believed_however_often_it_is_read) {
     }
 }
 
-static double native; /* Hz, that the next one tells */
+static double native; /* Hz, the next device's native rate */
 
 static void tell_native(void *user, knurl_device_info *info) {
     home_info(user, info);
     info->native_rate = native;
 }
 
-/* Its steps are longer than those of one that measures at 1 kHz, and it says so. */
+/* Its steps are longer than at 1 kHz, and it declares its rate. */
 TEST(a_device_that_measures_slowly_is_believed_when_it_is_read_more_often) {
     static const double natives[] = {100.0, 125.0, 300.0, 3000.0};
     for (size_t i = 0; i < COUNT_OF(natives); i++) {
@@ -203,7 +203,7 @@ TEST(a_device_that_measures_slowly_is_believed_when_it_is_read_more_often) {
     }
 }
 
-/* Nine times out of ten there is no position, and the one before holds. */
+/* Nine times out of ten there is no position, and the previous one is used. */
 TEST(a_position_that_held_for_a_while_is_left_as_fast_as_a_hand_can) {
     knurl_device_event event;
     SCOPED_DEVICE *device = open_at(1000.0);
@@ -216,7 +216,7 @@ TEST(a_position_that_held_for_a_while_is_left_as_fast_as_a_hand_can) {
     assert_int_equal(drain(device, &event), 0);
 }
 
-/* The same of an I/O thread whose exchanges took that long: a link without its thread, and positions posted by hand. */
+/* The same for an I/O thread with such long exchanges: a link without its thread, and positions posted by hand. */
 static knurl_link io;
 
 static void tell_io(const knurl_device *device, knurl_device_info *info) {
@@ -250,7 +250,7 @@ TEST(exchanges_that_take_long_do_not_make_a_hand_jump) {
     assert_true(device.events.head == 0);
 }
 
-/* --- what a loop makes of it --- */
+/* --- in a loop --- */
 
 typedef struct record {
     knurl_tick_output ticks[4000];
@@ -271,7 +271,7 @@ static double stroked_x(int beat) {
     return -0.04 + 0.00005 * beat;
 }
 
-/* S2 events at 50 Hz: one every 20 ticks; at 1 kHz, none is shorter than 18 nor longer than 22. */
+/* S2 events at 50 Hz: one every 20 ticks; at 1 kHz, each takes 18 to 22 ticks. */
 static int64_t events_within(int from, int to) {
     return seen.ticks[to].event - seen.ticks[from].event;
 }
@@ -287,7 +287,7 @@ static void check_return(int before, int after) {
         assert_true(vec3_length(seen.ticks[after + k].device_force) <= k * step * 3.3 + 1e-12);
     }
     assert_true(events_within(after + 1, after + 401) <= 401 / 18 + 1);
-    assert_true(vec3_length(seen.ticks[after + 300].device_force) > 0.1); /* it is felt again */
+    assert_true(vec3_length(seen.ticks[after + 300].device_force) > 0.1); /* the force is back */
 }
 
 TEST(after_a_jump_the_loop_comes_back_by_a_ramp_and_a_first_tick) {
@@ -297,7 +297,7 @@ TEST(after_a_jump_the_loop_comes_back_by_a_ramp_and_a_first_tick) {
         knurl_loop_desc desc;
         knurl_loop *loop = NULL;
         SCOPED_DEVICE *device = open_at(1000.0);
-        parts.plane.half_extents[0] = 0.3; /* also where the jump leads to */
+        parts.plane.half_extents[0] = 0.3; /* also at the jump's end */
         set_grating(&parts, KNURL_METHOD_S2, 1000.0, 0.0, 0.0003);
         SCOPED_SCENE *scene = scene_of(&parts);
         knurl_loop_desc_init(&desc, sizeof desc);
@@ -311,7 +311,7 @@ TEST(after_a_jump_the_loop_comes_back_by_a_ramp_and_a_first_tick) {
             if (beat == 700) {
                 home_inject(&h, faults[i]);
             } else if (beat == 710 && faults[i] == DOUBLE_NAN) {
-                home_inject(&h, DOUBLE_WELL); /* a jump is for good */
+                home_inject(&h, DOUBLE_WELL); /* the jump stays */
             }
             assert_int_equal(knurl_loop_step(loop, 1), KNURL_OK);
         }
@@ -323,13 +323,13 @@ TEST(after_a_jump_the_loop_comes_back_by_a_ramp_and_a_first_tick) {
         assert_int_equal(next_code(device, 0), faults[i] == DOUBLE_NAN ? KNURL_FAULT_NOT_FINITE : KNURL_FAULT_JUMP);
         assert_int_equal(next_code(device, 0), KNURL_FAULT_RESUMED);
         assert_int_equal(next_code(device, 0), 0);
-        assert_int_equal(seen.ticks[699].event > 20, 1); /* it was a stroke over a grating */
+        assert_int_equal(seen.ticks[699].event > 20, 1); /* the stroke crossed a grating */
         check_return(100, 700);
         knurl_loop_destroy(loop);
     }
 }
 
-/* The tick that says so itself: nothing is felt, nothing of the time before is left. */
+/* Ticks marked as absent: no force, and no state from before is kept. */
 TEST(an_absent_tick_feels_nothing_and_the_next_one_is_a_first_one) {
     surface_parts parts = surface_plane();
     set_grating(&parts, KNURL_METHOD_S2, 1000.0, 0.0, 0.0003);
@@ -338,7 +338,7 @@ TEST(an_absent_tick_feels_nothing_and_the_next_one_is_a_first_one) {
     knurl_tick_input away;
     memset(&away, 0, sizeof away);
     away.absent = 1;
-    away.position[0] = (double)NAN; /* nobody looks at it */
+    away.position[0] = (double)NAN; /* not used */
     for (int k = 0; k < 300; k++) {
         out = tick_at(scene, stroked_x(k), 0.0, -0.001);
     }

@@ -7,7 +7,7 @@
 
 #include <knurl/loop.h>
 
-/* Calls a tick every millisecond; lost, it calls once more, then not before it was reopened. */
+/* Calls a tick every millisecond; after a loss, it calls once more, then only after a reopening. */
 typedef struct servo {
     knurl_device device; /* first */
     knurl_thread *thread;
@@ -22,15 +22,15 @@ typedef struct servo {
     uint64_t closes;
     uint64_t generation, ticks, reads, writes, strangers, reopens, refuse_reopens;
     int64_t reopen_takes_ns;
-    int64_t lingers_ns;      /* in the tick that finds it lost */
+    int64_t lingers_ns;      /* in the tick that detects the loss */
     uint32_t changes_thread; /* 1: reopened, it has another one */
-    uintptr_t inside;        /* the thread that is in a tick */
-    uintptr_t served_by;     /* the latest thread that was */
+    uintptr_t inside;        /* the thread in a tick */
+    uintptr_t served_by;     /* the last thread in a tick */
     double motor;
     uint32_t tells_loss; /* 1: called once more since it was unplugged */
 } servo;
 
-static servo s; /* set up anew by each test */
+static servo s; /* reset by each test */
 
 int __wrap_knurl_system_make_realtime(void);
 
@@ -98,7 +98,7 @@ static knurl_result servo_read(knurl_device *device, knurl_device_sample *sample
     knurl_count_up(&self->reads);
     memset(sample, 0, sizeof *sample);
     if (knurl_load_acquire(&self->unplugged) && self->lingers_ns > 0) {
-        knurl_store_release(&device->lost, 1u); /* what its caller does next, and then the thread is held up */
+        knurl_store_release(&device->lost, 1u); /* as its caller would next; then the thread is held up */
         sleep_ns(self->lingers_ns);
     }
     return knurl_load_acquire(&self->unplugged) ? KNURL_ERROR_DEVICE_LOST : KNURL_OK;
@@ -119,7 +119,7 @@ static knurl_result servo_reopen(knurl_device *device) {
     if (self->reopens <= self->refuse_reopens) {
         return KNURL_ERROR_DEVICE_LOST;
     }
-    if (self->changes_thread) { /* both live for a moment: else they would be the same to those who ask */
+    if (self->changes_thread) { /* both exist for a moment: otherwise they could have the same id */
         knurl_thread *old = self->thread;
         knurl_count_up(&self->generation);
         self->thread = start_scheduler(self);
@@ -207,7 +207,7 @@ static void wait_until_absent(void) {
     assert_int_equal(stats().absent, 1);
 }
 
-/* After the loop's end nobody calls its tick. */
+/* After the loop's end its tick is not called any more. */
 static void check_silence(void) {
     const uint64_t ticks = knurl_load_acquire(&s.ticks);
     sleep_ns(10000000);
@@ -227,7 +227,7 @@ TEST_WITH(a_device_with_a_servo_thread_runs_the_loop_on_it, NULL, end) {
     assert_in_range(s.ticks, 219, 222);
 }
 
-static uintptr_t asked_for; /* the thread for which real-time rights were asked */
+static uintptr_t asked_for; /* the thread that requested real-time priority */
 
 int __wrap_knurl_system_make_realtime(void) {
     asked_for = knurl_system_thread_id();
@@ -321,8 +321,8 @@ TEST_WITH(a_loss_with_reconnect_is_waited_out, NULL, end) {
     check_silence();
 }
 
-/* The time without a device is no lateness, nor does a reopening that takes long make the haptic thread one that stands
- * still. */
+/* The time without a device does not count as lateness, and a long reopening does not count as a stall of the haptic
+ * thread. */
 TEST_WITH(the_time_that_it_was_away_is_no_fault_of_the_loops, NULL, end) {
     knurl_device_event event;
     begin();
@@ -364,7 +364,7 @@ TEST_WITH(a_stop_while_it_is_lost_ends_it_though_nobody_calls_the_tick, NULL, en
         wait_for_ticks(10);
         knurl_store_release(&s.unplugged, 1u);
         if (i % 3 == 0) {
-            wait_until_absent(); /* else the two race */
+            wait_until_absent(); /* otherwise the two race */
         } else if (i % 3 == 1) {
             sleep_ns(1000000);
         }
@@ -380,7 +380,7 @@ TEST_WITH(a_stop_while_it_is_lost_ends_it_though_nobody_calls_the_tick, NULL, en
     begin();
 }
 
-/* Whoever waited for the end may give the loop back. */
+/* A caller that waited for the end may destroy the loop. */
 TEST_WITH(a_loop_is_not_over_while_its_device_is_still_in_a_tick, NULL, end) {
     begin();
     t.desc.reconnect = 1;
@@ -409,7 +409,7 @@ TEST_WITH(destroying_it_at_once_is_fine_and_so_is_another_loop_after_it, NULL, e
     wait_for_ticks(5);
 }
 
-/* Also while it is away and nobody calls the tick. */
+/* Also while the device is lost and the tick is not called. */
 TEST_WITH(a_close_ends_the_loop_and_its_destroy_closes, NULL, end) {
     for (int lost = 0; lost < 2; lost++) {
         begin();

@@ -1,4 +1,4 @@
-/* A force that was not sent does not count as sent, and a device that was found again starts afresh.
+/* A force that was not sent does not count as sent, and a reopened device starts from a clean state.
  * SPDX-License-Identifier: MIT */
 #include "home.h"
 
@@ -49,7 +49,7 @@ TEST(silence_is_reported_again_after_a_reopening) {
         assert_int_equal(knurl_device_reopen(device), KNURL_OK);
         assert_int_equal(next_code(device, 0), KNURL_FAULT_RECONNECTED);
         h.read_gives = KNURL_ERROR_DEVICE_NOT_READY;
-        for (int k = 0; k < 20; k++) { /* as if it had never had a position: 10 ms of patience */
+        for (int k = 0; k < 20; k++) { /* as without any position before: waits 10 ms */
             assert_int_equal(knurl_device_read(device, &sample), KNURL_ERROR_DEVICE_NOT_READY);
         }
         assert_int_equal(next_code(device, 0), KNURL_FAULT_SILENT);

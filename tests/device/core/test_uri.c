@@ -1,4 +1,4 @@
-/* What follows "driver:" in a device's URI. SPDX-License-Identifier: MIT */
+/* The part after "driver:" in a device's URI. SPDX-License-Identifier: MIT */
 #include "support/close.h"
 
 #include "device/uri.h"
@@ -28,13 +28,13 @@ TEST(a_uri_is_a_name_and_values) {
         {"?library=/opt/libHD.so", "", "/opt/libHD.so", ""},
         {"left?library=/opt/libHD.so&serial=12", "left", "/opt/libHD.so", "12"},
         {"left?serial=12&library=x", "left", "x", "12"},
-        {"?serial=1&serial=2", "", "", "2"}, /* a later one counts */
+        {"?serial=1&serial=2", "", "", "2"}, /* the last one counts */
         {"?serial=", "", "", ""},
         {"?serial=1&serial=", "", "", ""},
         {"?serial=1&", "", "", "1"},
-        {"044f:b108?serial=a=b", "044f:b108", "", "a=b"}, /* as they are */
+        {"044f:b108?serial=a=b", "044f:b108", "", "a=b"}, /* unchanged */
         {"?library=a?b:c/%20 d", "", "a?b:c/%20 d", ""},
-        {"a&b=c", "a&b=c", "", ""}, /* before the '?' it is all name */
+        {"a&b=c", "a&b=c", "", ""}, /* all of it is the name, because there is no '?' */
         {"?library=Ger\xc3\xa4t", "", "Ger\xc3\xa4t", ""},
     };
     for (size_t i = 0; i < COUNT_OF(cases); i++) {
@@ -97,7 +97,7 @@ TEST(a_device_without_keys_takes_a_name_only) {
     assert_null(strstr(knurl_error_message(), "expected ,"));
 }
 
-/* As the fuzzer would: whatever it is, it ends, and what it gives are texts. */
+/* Like the fuzzer: any input ends, and results are valid texts. */
 TEST(random_options_are_taken_or_refused) {
     static const char alphabet[] = "?&=library=serial ab:%\xff";
     uint64_t random = 77;

@@ -45,7 +45,7 @@ static void double_close(knurl_device *device) {
     knurl_device_close(device);
 }
 
-/* The library hands out no bytes, and nothing is known of forces that it refuses. */
+/* The library exposes no bytes, and it is not known to refuse forces. */
 const device_double dhd_double = {"dhd",
                                   1u << DOUBLE_WELL | 1u << DOUBLE_UNPLUG | 1u << DOUBLE_MUTE | 1u << DOUBLE_HANG |
                                       1u << DOUBLE_NAN | 1u << DOUBLE_JUMP | 1u << DOUBLE_UNHOMED | 1u << DOUBLE_OFF,

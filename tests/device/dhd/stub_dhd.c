@@ -1,9 +1,9 @@
 /* A library with the functions of Force Dimension's DHD that the driver needs, over a simulated omega.3. Its rules are
  * those of the public header and of the reference of its maker's Python counterpart (forcedimension_core): the
  * controller is in its FORCE mode once forces were enabled, until its button, its velocity threshold, its watchdog or
- * another call puts it into BRAKE mode; then it takes commands, returns 0 and plays none. The cause is of the latest
- * time that forces went off, and stays afterwards. What stands open is taken as worst for a driver: a force is held
- * until the next one, unless the cable is pulled (a cause "USBDISCN"). SPDX-License-Identifier: MIT */
+ * another call puts it into BRAKE mode; then it accepts commands, returns 0 and plays no force. The cause is of the
+ * last time that forces were switched off, and is kept. Unspecified behaviour is the worst for a driver: a force is
+ * held until the next one, unless the cable is pulled (a cause "USBDISCN"). SPDX-License-Identifier: MIT */
 #include "stub_dhd.h"
 
 #include "base/system.h"
@@ -38,7 +38,7 @@ static struct {
     int error;
     int is_on; /* forces are enabled */
     int settings[3];
-    int cause;       /* of the latest time that they went off */
+    int cause;       /* of the last time that they were switched off */
     double force[3]; /* that its motors play */
     double others[3];
     int64_t limp_since;
@@ -59,7 +59,7 @@ void stub_dhd_reset(const stub_dhd_time *time, int strokes) {
                                        .hand_stiffness = 700.0,
                                        .hand_damping = 5.0,
                                        .resolution = 0.00001,
-                                       .max_force = 100.0, /* a driver that plays too much is to be seen */
+                                       .max_force = 100.0, /* so that a too large force is detected */
                                        .half_workspace = {0.075, 0.075, 0.075},
                                        .exact = 1};
     static const double middle[3] = {0.0, 0.0, 0.0};
@@ -80,7 +80,7 @@ void stub_dhd_reset(const stub_dhd_time *time, int strokes) {
     stub.limp_since = stub.time.now_ns();
 }
 
-/* A program that was not made for this has no test to set it up. */
+/* Other programs have no test that sets it up. */
 static void lock(void) {
     static const stub_dhd_time systems = {knurl_system_now_ns, knurl_system_sleep_until_ns};
     if (!stub.is_ready) {
@@ -95,7 +95,7 @@ static int end(int error) {
     return error ? -1 : 0;
 }
 
-/* The error of a call now; 0: none. */
+/* The present error of a call; 0: no error. */
 static int trouble(void) {
     return stub.fault == DOUBLE_UNPLUG ? DHD_ERROR_COM : 0;
 }
@@ -145,7 +145,7 @@ int DHD_CALL dhdOpenID(char index) {
     lock();
     const int error = index == 0 ? trouble() : DHD_ERROR_NO_DEVICE;
     stub.opens += !error;
-    return end(error) ? -1 : 5; /* what it is called from now on */
+    return end(error) ? -1 : 5; /* its id from now on */
 }
 
 int DHD_CALL dhdClose(char id) {

@@ -56,7 +56,7 @@ TEST(a_force_moves_the_grip_where_it_points_and_no_torque_goes_out) {
     }
 }
 
-/* By 90 degrees about what points up: in Knurl's axes about y. */
+/* By 90 degrees about the vertical, Knurl's y. */
 TEST(the_orientation_of_the_grip_is_told) {
     knurl_device_sample sample;
     knurl_device *device = open_released();
@@ -133,7 +133,7 @@ static void pull(uint64_t tick, const knurl_device_sample *sample, double force[
     force[1] = 1.28;
 }
 
-/* Lets the loop run; how often this event came, and its value. */
+/* Lets the loop run; returns the count of this event, and its value. */
 static int wait_and_count(knurl_device *device, int ms, int32_t code, double *value) {
     knurl_device_event event;
     int count = 0;
@@ -171,7 +171,7 @@ TEST(forces_that_are_switched_off_at_the_device_are_an_event_with_its_cause_and_
         assert_int_equal(wait_and_count(device, 500, KNURL_FAULT_FORCE_OFF, &value), 1);
         CHECK_SAME(value, (long double)causes[i][1]);
         dhd_stub.ask(force, others);
-        if (others[1] > 11.0) { /* a look every 10 exchanges */
+        if (others[1] > 11.0) { /* status is read every 10 exchanges */
             fail_msg("told %g forces that were not played", others[1]);
         }
         dhd_double.inject(DOUBLE_WELL);

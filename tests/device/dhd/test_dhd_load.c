@@ -1,4 +1,4 @@
-/* Force Dimension's library when it is not there, and the tool with the stand-in. SPDX-License-Identifier: MIT */
+/* Without Force Dimension's library, and the tool with the stand-in. SPDX-License-Identifier: MIT */
 #include "support/tool.h"
 
 static const char plate[] = KNURL_TEST_ASSETS "/plate_1d.glb";

@@ -1,5 +1,5 @@
-/* Force Dimension's library lists the devices that it can open: one that this account may not open is not listed, and
- * must not be called missing. On emulated USB. SPDX-License-Identifier: MIT */
+/* Force Dimension's library lists the devices that it can open: a device without permission is not listed, and must not
+ * be reported as missing. On emulated USB. SPDX-License-Identifier: MIT */
 #include "device/dhd/dhd_double.h"
 #include "support/close.h"
 
@@ -11,7 +11,7 @@
 
 #define NOBODY 65534
 
-/* Where it says "not connected", or something else. */
+/* The reason in the listing: "not connected", or another one. */
 static const char *reason_of_dhd(void) {
     static knurl_device_listing found[32];
     const uint32_t count = knurl_device_list(found, 32);
@@ -46,7 +46,7 @@ static void check_child(int status) {
     assert_int_equal(WEXITSTATUS(status), 0);
 }
 
-/* In a process that is nobody's, for nothing is denied to root. */
+/* In a process of user nobody, because root may open everything. */
 TEST(a_device_that_may_not_be_opened_is_not_called_missing) {
     int status = 0;
     char node[1024];
@@ -63,7 +63,7 @@ TEST(a_device_that_may_not_be_opened_is_not_called_missing) {
     (void)snprintf(node, sizeof node, "%s/dev/bus/usb/001/002", root);
     assert_int_equal(chmod(root, 0755) + chmod(node, 0), 0);
     g_free(root);
-    dhd_double.close(dhd_double.open()); /* the stand-in library is found from now on */
+    dhd_double.close(dhd_double.open()); /* makes the stand-in library available */
     dhd_double.inject(DOUBLE_UNPLUG);    /* and lists nothing */
     const pid_t child = fork();
     if (child == 0) {
@@ -89,7 +89,7 @@ TEST(a_device_that_may_not_be_opened_is_not_called_missing) {
     CHECK_REFUSED(knurl_device_open("dhd", &out.device), KNURL_ERROR_DEVICE_LOST, out);
 }
 
-/* As the maker's SDK asks for: SUBSYSTEM=="usb", ATTR{idVendor}=="1451". */
+/* As in the maker's SDK: SUBSYSTEM=="usb", ATTR{idVendor}=="1451". */
 TEST(the_udev_rules_know_force_dimension) {
     char text[8192];
     FILE *file = fopen(KNURL_TEST_UDEV_RULES, "r");

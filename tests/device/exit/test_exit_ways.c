@@ -1,5 +1,5 @@
-/* Every way a program can end or stop, on every device: what its motors are told last, and when. The child is this
- * program again; kinds of devices are tried beside one another. Prints a table, and writes it to exits.md.
+/* Every kind of end and stop of a program, on every device: the motors' last force, and its time. The child is this
+ * program again; kinds of devices are tried in parallel. Prints a table, and writes it to exits.md.
  * SPDX-License-Identifier: MIT */
 #define _GNU_SOURCE 1
 
@@ -21,8 +21,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#define GUARD_MS 100.0 /* within which a guard has zeroed the force */
-#define EXIT_MS  25.0  /* what an end that is seen waits at most, and some */
+#define GUARD_MS 100.0 /* limit for a guard to zero the force */
+#define EXIT_MS  25.0  /* the longest wait at a detected end, with a margin */
 
 /* --- the ways --- */
 
@@ -79,7 +79,7 @@ static int end_by(int how) {
     default:
         (void)kill(getpid(), how);
     }
-    for (;;) { /* it goes on after a stop */
+    for (;;) { /* it continues after a stop */
         nap();
     }
 }
@@ -96,7 +96,7 @@ static int be_a_child(char **arguments) {
     knurl_loop_desc desc;
     knurl_loop *loop = NULL;
     (void)setrlimit(RLIMIT_CORE, &none);
-    (void)setpgid(0, 0); /* a group that no shell looks after is not stopped */
+    (void)setpgid(0, 0); /* an orphaned process group is not stopped */
     for (size_t i = 0; i < COUNT_OF(ways); i++) {
         if (ways[i].how > 0) {
             (void)signal(ways[i].how, SIG_DFL); /* a sanitizer's */
@@ -123,7 +123,7 @@ typedef struct outcome {
     double zero_ms;     /* from the end to force 0; -1: the last force stays */
     int is_by_that;     /* the process ended or stopped as it would have without Knurl */
     int goes_on;        /* stops: after SIGCONT the force was there again */
-    int handle_is_free; /* nobody holds the device any more */
+    int handle_is_free; /* no process holds the device any more */
 } outcome;
 
 static int wait_until(const int *flag, int milliseconds) {
@@ -169,7 +169,7 @@ static int is_as_without(int status, const struct way *way) {
                           : WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-/* Forces come again, and nobody interrupts them for 100 ms. */
+/* Forces return, without interruption for 100 ms. */
 static int is_pushing_again(pid_t child, const wire_shared *shared) {
     int run = 0;
     (void)kill(child, SIGCONT);
@@ -218,8 +218,9 @@ static outcome try_way(size_t kind, const struct way *way, int guarded) {
 
 static int is_good(const outcome *o, const struct way *way, int guarded) {
     const int zero = way->is_seen ? o->zero_ms >= 0.0 && o->zero_ms <= EXIT_MS
-                     : guarded    ? o->zero_ms >= 0.0 && o->zero_ms <= GUARD_MS
-                                  : o->zero_ms < 0.0; /* what is not seen needs a guard: or this test is of no use */
+                     : guarded
+                         ? o->zero_ms >= 0.0 && o->zero_ms <= GUARD_MS
+                         : o->zero_ms < 0.0; /* an undetected end needs a guard: otherwise this test is of no use */
     return zero && o->is_by_that && o->handle_is_free && (!way->is_a_stop || o->goes_on);
 }
 
@@ -239,7 +240,7 @@ typedef struct column {
 
 static column columns[8];
 
-/* What fails for the machine's sake does not do so three times. */
+/* A failure because of load does not happen three times. */
 static void try_column(void *argument) {
     column *c = argument;
     for (size_t i = 0; i < COUNT_OF(ways); i++) {

@@ -1,4 +1,4 @@
-/* The guard process by itself: when it writes, what it holds, and when it ends. SPDX-License-Identifier: MIT */
+/* The guard process by itself: its writes, its descriptors, and its end. SPDX-License-Identifier: MIT */
 #define _GNU_SOURCE 1
 
 #include "support/close.h"
@@ -6,7 +6,7 @@
 
 #include "base/system.h"
 
-/* The program that guards, as part of this one: what it asks of the kernel is caught below. */
+/* The guard program, compiled into this one: its system calls are intercepted below. */
 #define main guard_main
 int guard_main(void);
 #include "base/guard_program.c" /* NOLINT(bugprone-suspicious-include): its functions, but not its main() */
@@ -17,7 +17,7 @@ int guard_main(void);
 #include <sys/wait.h>
 
 typedef struct rig {
-    int device; /* what the guard writes comes out here */
+    int device; /* receives the guard's writes */
     ino_t pipe;
     knurl_guard_process *guard;
 } rig;
@@ -61,7 +61,7 @@ static void live_for(const rig *r, int milliseconds) {
     }
 }
 
-/* It is gone within a second; what it wrote before. */
+/* It ends within a second. Returns its last write before that. */
 static int wait_for_end(const rig *r) {
     int all = 0;
     for (int i = 0; i < 1000; i++) {
@@ -95,7 +95,7 @@ TEST(nothing_is_written_while_the_host_lives_nor_when_it_closes_the_device) {
     live_for(&r, 300);
     assert_int_equal(written(&r), 0);
     knurl_guard_process_stop(r.guard);
-    assert_int_equal(written(&r), -1); /* at once: who opens the device next finds it free */
+    assert_int_equal(written(&r), -1); /* at once, so that the device can be opened again */
     (void)close(r.device);
 }
 
@@ -192,7 +192,7 @@ int __wrap_ioctl(int fd, unsigned long kind, ...) {
     return 4;
 }
 
-/* No USB device is to be had here: what the kernel would be asked for. */
+/* There is no USB device here: checks the arguments of the system call. */
 TEST(a_usb_device_gets_a_bulk_transfer_to_its_endpoint) {
     knurl_guard_order order = zero_order;
     order.endpoint = 2;

@@ -21,7 +21,7 @@
 
 static int wire_of_child;
 
-/* A message within the time: its size; 0: none; -1: the other end is gone. */
+/* Receives a message within the time. Returns its size; 0: timeout; -1: the other end is closed. */
 static int take(uint8_t *bytes, size_t room, int milliseconds) {
     struct pollfd end = {wire_of_child, POLLIN, 0};
     if (poll(&end, 1, milliseconds) <= 0) {
@@ -290,7 +290,7 @@ static knurl_device *functions_open(int wire, wire_shared *shared, uint32_t guar
     return knurl_device_open_functions(&f, &device) ? NULL : device;
 }
 
-/* --- Touch: its library, and what that tells the motors, are in the child --- */
+/* --- Touch: its library and the motors' state are in the child --- */
 
 static knurl_device *touch_open(int wire, wire_shared *shared, uint32_t guarded) {
     static char why[256];

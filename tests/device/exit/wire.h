@@ -1,6 +1,6 @@
 /* Devices at the end of a socket: the driver runs in a child that will be ended, the simulated device in the test,
- * which lives on and sees what the device was told last. A socket stands for usbfs and hidraw because a guard inherits
- * it as it would those, which no emulation in a process does. SPDX-License-Identifier: MIT */
+ * which survives and sees the device's last force. A socket replaces usbfs and hidraw, because a guard can inherit it
+ * like those, unlike an emulation within a process. SPDX-License-Identifier: MIT */
 #ifndef KNURL_TEST_WIRE_H
 #define KNURL_TEST_WIRE_H
 
@@ -10,7 +10,7 @@
 #include <knurl/fake.h>
 #include <pthread.h>
 
-/** What child and test share. */
+/** Shared by child and test. */
 typedef struct wire_shared {
     stub_told told;   /**< to the motors; written by the test, and for the Touch by the stub in the child */
     int64_t ended_at; /**< ns: just before the child's end */
@@ -21,10 +21,10 @@ typedef struct wire_device wire_device;
 /** A kind of device. */
 typedef struct wire_kind {
     const char *name;
-    /** The child's side: opens a device over `wire`. Null: knurl_error_message() says why. */
+    /** The child's side: opens a device over `wire`. Null: see knurl_error_message(). */
     knurl_device *(*open)(int wire, wire_shared *shared, uint32_t guarded);
-    /** The test's side: a fresh simulated device; one message in, whether motors get a force, one message out (0:
-     * none). Null: it is in the child. */
+    /** The test's side: a new simulated device; one message in; 1 if the motors have a force; one message out (0: no
+     * message). Null: it is in the child. */
     void (*reset)(void);
     size_t (*hear)(const uint8_t *bytes, size_t size, uint8_t *answer, int *has_force);
     const char *cannot; /**< why it cannot be guarded; null: it can */
@@ -38,7 +38,7 @@ struct wire_device {
     const wire_kind *kind;
     wire_shared *shared;
     int wire;
-    int is_closed; /**< atomic; 1: nobody holds the other end any more */
+    int is_closed; /**< atomic; 1: the other end is closed */
     pthread_t thread;
 };
 

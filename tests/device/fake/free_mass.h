@@ -1,4 +1,4 @@
-/* A simulated device of 50 g with nothing in its way, for the tests of the plant. SPDX-License-Identifier: MIT */
+/* A simulated device of 50 g without obstacles, for the tests of the plant. SPDX-License-Identifier: MIT */
 #ifndef KNURL_TEST_FREE_MASS_H
 #define KNURL_TEST_FREE_MASS_H
 

@@ -42,7 +42,7 @@ static double as_text(double value, int decimals) {
     return strtod(text, NULL);
 }
 
-/* quantum 0: exact. origin: where the scene's is, m: after the text was read, as the tool does. */
+/* quantum 0: exact. origin: of the scene, m, added after the text was read, as in the tool. */
 static void record(motion m, double rate, double speed, double quantum, int decimals, double origin) {
     for (int i = 0; i < ROWS; i++) {
         double p[3];

@@ -1,4 +1,4 @@
-/* The fake device as a device: its URI, information and errors, what it does with forces, halts and lost cables.
+/* The fake device as a device: its URI, information and errors, forces, halts and lost cables.
  * SPDX-License-Identifier: MIT */
 #include "device/port.h"
 #include "support/close.h"
@@ -16,7 +16,7 @@ static void write_x(knurl_device *device, double force) {
 
 /* --- opening --- */
 
-/* What an open that fails must leave alone. */
+/* Outputs that a failed open must not change. */
 typedef struct opened {
     knurl_device *device;
 } opened;
@@ -227,7 +227,7 @@ TEST(while_halted_a_force_counts_nothing_until_it_is_released) {
     }
     knurl_port_release_halt(device);
     assert_int_equal(knurl_port_is_halted(device), 0);
-    CHECK_SAME(read_one(device).position[0], 0.0L); /* what was written during the halt is not caught up with */
+    CHECK_SAME(read_one(device).position[0], 0.0L); /* forces written during the halt are dropped */
     write_x(device, 1.0);
     assert_true(read_one(device).position[0] > 0.0);
 }
@@ -241,7 +241,8 @@ TEST(a_start_ends_a_halt) {
     assert_true(read_one(device).position[0] > 0.0);
 }
 
-/* At once, whatever the haptic thread does: also what is played, and what is still under way, when nobody writes. */
+/* Immediately and independently of the haptic thread: also the present force and one in transit, without further
+ * writes. */
 TEST(a_halt_zeroes_the_force_at_once) {
     for (int delay = 0; delay <= 3; delay++) {
         char uri[200];

@@ -1,4 +1,4 @@
-/* The fake device's presets, what it says of itself, and its true state. SPDX-License-Identifier: MIT */
+/* The fake device's presets, its information, and its true state. SPDX-License-Identifier: MIT */
 #include "support/close.h"
 #include "support/fake.h"
 
@@ -47,7 +47,7 @@ TEST(a_falcon_is_not_a_touch) {
     }
 }
 
-/* What is known of them: CHAI3D's figures. The workspace is the cube in a sphere of that radius. */
+/* From CHAI3D's figures. The workspace is the cube in a sphere of that radius. */
 TEST(a_wooden_haptics_and_an_omega_are_as_chai3d_has_them) {
     static const struct {
         const char *uri;
@@ -62,7 +62,7 @@ TEST(a_wooden_haptics_and_an_omega_are_as_chai3d_has_them) {
     }
 }
 
-/* The same as the real driver tells of the same device, so that what was tried on the one holds on the other. */
+/* The same information as from the real driver of that device, so that results carry over. */
 TEST(a_simulated_wooden_haptics_is_what_its_driver_tells) {
     knurl_rawhid_geometry g;
     knurl_rawhid_arm arm;
@@ -160,7 +160,7 @@ TEST(the_motors_force_is_the_one_that_acted_delayed_and_limited) {
     }
 }
 
-/* At rest the hand pulls with what the motors push with; without dry friction all of it. */
+/* At rest the hand's force equals the motors', without dry friction exactly. */
 TEST(the_hands_force_balances_the_motors_at_rest) {
     static const double force[3] = {0.3, 0.8, -0.2};
     SCOPED_DEVICE *device = open_device("fake:?coulomb=0&tremor=0&exact=1");
@@ -176,7 +176,7 @@ TEST(the_hands_force_balances_the_motors_at_rest) {
     }
 }
 
-/* The works of motors, hand and viscous friction are what the mass has: a run under a force that swings. */
+/* The work of motors, hand and viscous friction equals the mass's energy, under an oscillating force. */
 TEST(the_true_state_keeps_the_books_of_energy) {
     SCOPED_DEVICE *device = open_device("fake:?preset=ideal&viscous=0.4&mass=0.1");
     stand(device);
@@ -211,7 +211,7 @@ TEST(a_trace_has_no_true_state) {
     assert_memory_equal(&truth, &before, sizeof truth);
 }
 
-/* What this once did: grow without bound. */
+/* Regression: it grew without bound. */
 TEST(a_light_device_in_a_stiff_hand_stays_where_it_is_held) {
     SCOPED_DEVICE *device = open_device("fake:?mass=0.001&hand_damping=100&tremor=0&coulomb=0");
     stand(device);

@@ -1,4 +1,4 @@
-/* How the fake device's hand moves: strokes against what device.h says of them, its tremor, its seeds.
+/* Motion of the fake device's hand: strokes as specified in device.h, its tremor, its seeds.
  * SPDX-License-Identifier: MIT */
 #include "support/close.h"
 #include "support/fake.h"
@@ -8,7 +8,7 @@
 #define DT   0.001 /* s */
 #define DOWN 250   /* ticks: "comes down within 0.25 s and then moves" */
 
-/* A stroke on a surface that is nowhere near the axes: the tests look at it in its own frame. */
+/* A stroke on a surface in a general pose: the tests use its own frame. */
 static const double centre[3] = {0.01, -0.02, 0.005};
 static const double along_x[3] = {0.6, 0.0, 0.8};
 static const double outward[3] = {0.0, 1.0, 0.0};
@@ -64,8 +64,8 @@ TEST(every_stroke_starts_5_mm_above_and_comes_down_on_the_spot_within_a_quarter_
     }
 }
 
-/* Turns are rounded: full speed in the middle, at half of it 2 % before an end, and nowhere more. Steady within 2 % is
- * what the middle half of the way has to be. Speeds are differences over a tick. */
+/* Turns are rounded: full speed in the middle, at half of it 2 % before an end, and nowhere more. The middle half of
+ * the path must be steady within 2 %. Speeds are differences over a tick. */
 TEST(a_line_goes_back_and_forth_at_its_speed_over_its_reach) {
     knurl_stroke_desc desc = make_stroke(KNURL_STROKE_LINE);
     desc.speed = 0.2;
@@ -98,7 +98,7 @@ TEST(a_line_goes_back_and_forth_at_its_speed_over_its_reach) {
 
 TEST(a_sweep_goes_from_standing_to_250_mm_a_second_and_back_within_its_period) {
     knurl_stroke_desc desc = make_stroke(KNURL_STROKE_SWEEP);
-    desc.reach[0] = 1.0; /* the whole period, 0.625 m, lies where a way of 1 m is straight enough */
+    desc.reach[0] = 1.0; /* the whole period, 0.625 m, is in the straight part of a path of 1 m */
     knurl_hand hand = make_hand(&desc, 0.0);
     double at[3];
     double last = 0.0;
@@ -143,7 +143,7 @@ TEST(a_sweep_turns_within_its_reach_and_starts_anew_after_its_period) {
     }
     CHECK_CLOSE(high, 0.04, 0.04 * 0.005);
     CHECK_CLOSE(low, -0.04, 0.04 * 0.005);
-    for (int period = 0; period < 3; period++) { /* 0.25 m each but for what the turns take off */
+    for (int period = 0; period < 3; period++) { /* 0.25 m each, less at the turns */
         assert_true(way[period] > 0.2 && way[period] <= 0.25 + 1e-9);
     }
 }
@@ -354,7 +354,8 @@ TEST(starting_again_plays_the_same_once_more) {
     }
 }
 
-/* The default hand is stable at every rate that a loop allows: 0.26 N of friction over 700 N/m is where it may stand.
+/* The default hand is stable at every rate that a loop allows: 0.26 N of friction over 700 N/m is the tolerance of its
+ * rest position.
  */
 TEST(the_default_hand_comes_to_rest_at_its_target_at_every_rate) {
     static const double rates[] = {100.0, 300.0, 1000.0, 3000.0, 10000.0};
@@ -387,7 +388,7 @@ TEST(a_stroke_along_a_path_keeps_its_depth_and_stays_on_it) {
     double least = 10.0;
     double most = -10.0;
     knurl_device *device =
-        open_device("fake:?preset=ideal&hand_stiffness=10000&hand_damping=50"); /* goes where its hand goes */
+        open_device("fake:?preset=ideal&hand_stiffness=10000&hand_damping=50"); /* follows its hand */
     write_arc(rows, COUNT_OF(rows));
     knurl_stroke_desc_init(&stroke, sizeof stroke);
     stroke.path = rows[0];

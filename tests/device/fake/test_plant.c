@@ -38,7 +38,7 @@ TEST(a_constant_force_accelerates_a_free_mass) {
     }
 }
 
-/* v = v0 exp(-b t/m): after a path of m v0/b it stands. */
+/* v = v0 exp(-b t/m): it stops after m v0/b. */
 TEST(viscous_friction_slows_a_free_mass_exponentially) {
     knurl_plant_config config = free_mass(0);
     config.viscous = 0.5; /* a time constant of 0.1 s */
@@ -81,8 +81,7 @@ TEST(without_friction_a_swing_neither_grows_nor_dies) {
         push(&plant, 0.0);
         const double energy =
             0.5 * 0.05 * plant.velocity[0] * plant.velocity[0] + 0.5 * 700.0 * plant.position[0] * plant.position[0];
-        CHECK_CLOSE(energy, 0.035,
-                    0.035 * 118.4 * DT); /* w h: twice the ellipse's skew, as energy goes with its square */
+        CHECK_CLOSE(energy, 0.035, 0.035 * 118.4 * DT); /* w h: twice the ellipse's skew, because energy is quadratic */
     }
 }
 
@@ -103,7 +102,7 @@ TEST(a_constant_force_deflects_the_hands_spring_by_force_over_stiffness) {
 }
 
 /* Behind a target at speed v a spring trails by b v/k of the device's viscous friction; the hand's own damper, which
- * moves along, does not hold it back. The integrator moves the mass after it has looked at the spring: v h. */
+ * moves along, has no effect. The integrator moves the mass after it evaluates the spring: v h. */
 TEST(a_moving_hand_drags_the_mass_behind_it_by_its_friction) {
     static const double velocity[3] = {0.2, 0.0, 0.0};
     knurl_plant_config config = free_mass(0);
@@ -149,7 +148,7 @@ TEST(dry_friction_holds_against_the_length_of_the_force_and_not_its_parts) {
     }
 }
 
-/* v falls by Fc/m a second: the way is m v0^2 / 2 Fc. */
+/* v falls by Fc/m a second: the distance is m v0^2 / 2 Fc. */
 TEST(dry_friction_stops_a_slide_where_its_work_has_used_up_the_energy) {
     knurl_plant_config config = free_mass(0);
     config.coulomb = 0.25;
@@ -167,7 +166,7 @@ TEST(dry_friction_stops_a_slide_where_its_work_has_used_up_the_energy) {
     CHECK_SAME(plant.velocity[0], 0.0L);
 }
 
-/* It comes to rest where the spring pulls with no more than the friction: |x| <= Fc/k. */
+/* It comes to rest if the spring's force is at most the friction: |x| <= Fc/k. */
 TEST(dry_friction_keeps_the_hand_off_its_target_by_no_more_than_its_limit) {
     knurl_plant_config config = free_mass(0);
     config.hand_stiffness = 700.0;
@@ -208,7 +207,7 @@ TEST(a_force_acts_exactly_delay_ticks_later) {
     }
 }
 
-/* What the motors are told holds until they are told something else, so ticks without a word count as well. */
+/* A force stays until the next one, so ticks without a write count as well. */
 TEST(a_force_that_is_written_once_arrives_after_its_delay_and_stays) {
     static const double once[3] = {1.0, 0.0, 0.0};
     for (int32_t delay = 0; delay <= 3; delay++) {

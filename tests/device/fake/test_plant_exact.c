@@ -1,5 +1,5 @@
-/* The plant's exact motion against closed forms, where it takes over from the plain steps, and the plain steps as they
- * have always been. SPDX-License-Identifier: MIT */
+/* The plant's exact motion against closed forms, for cases in which plain steps are too coarse; plain steps must not
+ * change. SPDX-License-Identifier: MIT */
 #include "free_mass.h"
 
 static void push(knurl_plant *plant, double dt, double force) {
@@ -80,7 +80,7 @@ TEST(dry_friction_holds_exactly_below_its_limit_and_slides_above) {
     }
 }
 
-/* v falls by Fc/m a second and stays 0: the way is m v0^2 / 2 Fc, wherever in a step the end comes. */
+/* v falls by Fc/m a second and stays 0: the distance is m v0^2 / 2 Fc, for an end anywhere in a step. */
 TEST(dry_friction_stops_a_slide_where_its_work_has_used_up_the_energy) {
     static const double speeds[] = {0.5, 0.4999, 0.123456, 0.001};
     knurl_plant_config config = free_mass(1);
@@ -116,7 +116,7 @@ TEST(dry_friction_takes_twice_its_deflection_a_half_swing) {
     assert_true(expected < 0.004); /* five swings and more were seen */
 }
 
-/* Across a way that is slid at v, small motions feel fc/v N s/m: with 1 mm/s across 0.2 m/s they die in m v/fc. */
+/* Across a slide at v, small motions are damped by fc/v N s/m: 1 mm/s across 0.2 m/s decays in m v/fc. */
 TEST(dry_friction_of_a_slide_damps_what_goes_across_it) {
     static const double along[3] = {0.0, 0.0, 0.2};
     knurl_plant_config config = free_mass(1);
@@ -134,7 +134,7 @@ TEST(dry_friction_of_a_slide_damps_what_goes_across_it) {
     }
 }
 
-/* --- where plain steps are too coarse --- */
+/* --- plain steps too coarse --- */
 
 static double largest_deflection(const knurl_plant_config *config, double dt) {
     knurl_plant plant = make_plant(config, 0.001, 0.0);

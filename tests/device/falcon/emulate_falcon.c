@@ -10,7 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* --no-firmware: the image of so many bytes that falcon_image_make() makes is asked for. */
+/* --no-firmware: needs the image of this size from falcon_image_make(). */
 #define IMAGE_SIZE 4096
 
 static int run(char **command) {

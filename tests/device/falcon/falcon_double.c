@@ -10,7 +10,7 @@ static knurl_device *open_wired(uint32_t backwards, const char *options) {
     knurl_stroke_desc stroke;
     knurl_stroke_desc_init(&stroke, sizeof stroke);
     stroke.stroke = KNURL_STROKE_REST;
-    stroke.depth = -0.005; /* stays at the height where strokes begin */
+    stroke.depth = -0.005; /* stays at the height of a stroke's start */
     falcon_fake_init(&fake, &stroke);
     fake.sim.backwards = backwards;
     fake.sim.plant.config.hand_stiffness = backwards ? 200.0 : fake.sim.plant.config.hand_stiffness;

@@ -1,5 +1,5 @@
-/* The kernel's usbdevfs as far as libusb asks for it, over the simulated Falcon. What a process asks comes as ioctls,
- * in a thread of umockdev's. SPDX-License-Identifier: MIT */
+/* The part of the kernel's usbdevfs that libusb uses, over the simulated Falcon. A process's requests arrive as ioctls
+ * in a thread of umockdev. SPDX-License-Identifier: MIT */
 #include "falcon_emulated.h"
 
 #include "base/system.h"
@@ -53,12 +53,12 @@ static void drop_all(void) {
     }
 }
 
-/* Fills in what has come of a request; 0: nothing yet. */
+/* Fills in a request's result; 0: not done yet. */
 static int is_done(request *r) {
     struct usbdevfs_urb *urb = (void *)r->urb->data;
     unsigned char *bytes = r->buffer ? r->buffer->data : NULL;
     urb->status = 0;
-    if (r->is_discarded || it.is_gone || !bytes) { /* none of the driver's is without a buffer */
+    if (r->is_discarded || it.is_gone || !bytes) { /* all of the driver's requests have a buffer */
         urb->status = r->is_discarded ? -ENOENT : -ESHUTDOWN;
         urb->actual_length = 0;
         return 1;
@@ -196,7 +196,7 @@ static gboolean on_ioctl(UMockdevIoctlBase *base, UMockdevIoctlClient *client, g
     }
     const gulong kind = umockdev_ioctl_client_get_request(client);
     if (!it.is_gone || (it.count > 0 && (kind == USBDEVFS_REAPURBNDELAY || kind == USBDEVFS_DISCARDURB))) {
-        code = answer(kind, umockdev_ioctl_client_get_arg(client)); /* what was under way can still be had back */
+        code = answer(kind, umockdev_ioctl_client_get_arg(client)); /* pending requests can still be reaped */
     }
     umockdev_ioctl_client_complete(client, code < 0 ? -1 : 0, code < 0 ? -code : 0);
     knurl_system_mutex_unlock(&it.lock);
@@ -239,7 +239,7 @@ int falcon_emulated_start(const falcon_emulation *setup) {
     memset(&it, 0, sizeof it);
     it.e = *setup;
     it.bed = umockdev_testbed_new();
-    if (!umockdev_in_mock_environment()) { /* the answer is kept: not to be asked before there is a bed */
+    if (!umockdev_in_mock_environment()) { /* the answer is cached: call it only once there is a testbed */
         (void)fprintf(stderr, "run this under umockdev-wrapper\n");
         g_object_unref(it.bed);
         return 0;
@@ -256,8 +256,8 @@ int falcon_emulated_start(const falcon_emulation *setup) {
 void falcon_emulated_unplug(void) {
     knurl_system_mutex_lock(&it.lock);
     pull();
-    knurl_system_mutex_unlock(&it.lock); /* whoever has it open goes on being told that it is gone */
-    knurl_system_sleep_until_ns(knurl_system_now_ns() + 30000000); /* libusb still looks it up */
+    knurl_system_mutex_unlock(&it.lock);                           /* a process that has it open still gets the error */
+    knurl_system_sleep_until_ns(knurl_system_now_ns() + 30000000); /* libusb still enumerates it */
     umockdev_testbed_remove_device(it.bed, SYSTEM_PATH);
 }
 

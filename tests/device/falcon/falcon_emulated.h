@@ -9,7 +9,7 @@ typedef struct falcon_emulation {
     falcon_sim sim;
     double unplug_after; /* s after its first frame; 0: never */
     int is_split;        /* 1: packets of up to 6 bytes of data */
-    int is_mute;         /* 1: it takes what is sent and never answers */
+    int is_mute;         /* 1: it accepts data and never answers */
     int is_held;         /* 1: another program holds its interface */
 } falcon_emulation;
 

@@ -1,4 +1,4 @@
-/* A simulated Falcon where the driver looks for a real one. SPDX-License-Identifier: MIT */
+/* A simulated Falcon in place of the driver's transport. SPDX-License-Identifier: MIT */
 #include "falcon_fake.h"
 
 #include "device/listings.h"
@@ -29,7 +29,7 @@ static int fake_control(void *self, uint8_t request, uint16_t value) {
     return outcome;
 }
 
-/* What the device says now gets on its way, spoilt as the fault has it. */
+/* Sends the device's answer, altered by the fault. */
 static void dispatch(falcon_fake *fake) {
     falcon_sim *sim = &fake->sim;
     if (fake->fault == DOUBLE_MUTE || fake->held == FALCON_FAKE_QUEUE) {
@@ -53,7 +53,7 @@ static void dispatch(falcon_fake *fake) {
     }
 }
 
-/* Since when the motors are told nothing. */
+/* Records the start of the motors' zero force. */
 static void note_motors(falcon_fake *fake) {
     const int16_t *m = fake->sim.motors;
     const int is_limp = !m[0] && !m[1] && !m[2];

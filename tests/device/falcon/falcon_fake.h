@@ -1,4 +1,4 @@
-/* A simulated Falcon where the driver looks for a real one: a bus with one device, in real time, with faults.
+/* A simulated Falcon in place of the driver's transport: a bus with one device, in real time, with faults.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_TEST_FALCON_FAKE_H
 #define KNURL_TEST_FALCON_FAKE_H
@@ -15,7 +15,7 @@ typedef struct falcon_fake {
     knurl_mutex lock; /* over all of it */
     falcon_sim sim;
     int fault;   /* DOUBLE_ */
-    int is_gone; /* whoever has it open has lost it */
+    int is_gone; /* an open handle is lost */
     int denied;  /* 1: opening it is not permitted */
     uint32_t opens, closes;
     int64_t limp_at;     /* ns since when its motors get no force; 0: they get one */

@@ -10,7 +10,7 @@
 /* Offsets: of the entry point, of the one block's size, of its data. */
 enum { FALCON_IMAGE_ENTRY = 18, FALCON_IMAGE_BLOCK = 22, FALCON_IMAGE_DATA = 28 };
 
-/* size: bytes, even. Returns what they add up to. */
+/* size: bytes, even. Returns their sum. */
 static inline uint32_t falcon_image_make(uint8_t *image, size_t size) {
     static const uint8_t address[] = {0x3f, 0x00, 0x02, 0x80}; /* 0x3f8002, in the processor's RAM */
     const size_t words = (size - FALCON_IMAGE_DATA - 2) / 2;

@@ -15,7 +15,7 @@
 static falcon_fake fake;
 static const double no_force[3] = {0.0, 0.0, 0.0};
 
-static knurl_device *opened; /* a test that fails leaves these, which begin() ends */
+static knurl_device *opened; /* a failed test leaves these; begin() closes them */
 static knurl_loop *running;
 
 /* A fresh device on the bus, in a moving hand. */
@@ -99,7 +99,7 @@ static inline knurl_device *open_ready(void) {
     return open_ready_with("");
 }
 
-/* How often that fault was reported since the last call, and everything else. */
+/* The count of a fault since the last call; *others: of all others. */
 static inline int events_of(knurl_device *device, int32_t code, int *others) {
     int count = 0;
     knurl_device_event event;

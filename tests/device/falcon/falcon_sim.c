@@ -18,7 +18,7 @@ static double missing(double u, double w, double sin_t3, double t1) {
     return sqrt(along * along + up * up) - (geometry_d + geometry_e + geometry_b * sin_t3);
 }
 
-/* Upward from where the upper arm points away from the grip, the first angle that fits: elbow outward. */
+/* The first solution above the angle at which the upper arm points away from the grip: elbow outward. */
 static int find_angle(double u, double w, double sin_t3, double *angle) {
     double high = atan2(w, u + geometry_c);
     double low = high - PI;
@@ -116,7 +116,7 @@ void falcon_sim_put(falcon_sim *sim, double x, double y, double z) {
     sim->is_moving = 0;
 }
 
-/* Counts how much of the way into the boot loader was gone. */
+/* Counts the completed steps of entering the boot loader. */
 static void follow_boot(falcon_sim *sim, uint32_t request, uint32_t value) {
     static const uint32_t way[][2] = {{9, 16},    {3, 0x4138}, {4, 8},     {2, 0},   {1, 0x200},
                                       {1, 0x100}, {1, 0x101},  {1, 0x100}, {3, 0x15}};

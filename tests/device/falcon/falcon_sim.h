@@ -12,17 +12,17 @@
 #define FALCON_SIM_ROOM 4096
 
 typedef struct falcon_sim {
-    /* where its grip is */
+    /* motion of its grip */
     knurl_plant plant;
     knurl_hand hand;
     double target[3];
     uint64_t ticks;
-    double jump[3];     /* m: what the encoders tell beyond the truth */
+    double jump[3];     /* m: error of the encoders */
     double gain;        /* motor units that make a newton metre, over libnifalcon's 10000 */
     uint32_t backwards; /* bits: motors that are wired backwards */
     double weight;      /* N that hang from its grip */
-    int is_moving;      /* 0: it stands where it was put, whatever the motors do */
-    /* what it says and hears */
+    int is_moving;      /* 0: it stays in place, independent of the motors */
+    /* its messages */
     int16_t motors[3];
     double force[3]; /* N that they make there */
     uint32_t flags;  /* as heard: bit 0 homing, 1 green, 2 blue, 3 red */
@@ -46,11 +46,11 @@ typedef struct falcon_sim {
     uint32_t deaf;      /* calls that the boot loader does not hear */
     uint32_t image_size;
     uint32_t image_count;
-    uint32_t image_sum;   /* what the right image's bytes add up to */
-    uint32_t loading_sum; /* of what came */
-    int32_t wrong_echo;   /* which of the image's bytes comes back wrong; -1: none */
+    uint32_t image_sum;   /* sum of the right image's bytes */
+    uint32_t loading_sum; /* of the received bytes */
+    int32_t wrong_echo;   /* index of the image byte that is echoed wrong; -1: no byte */
     uint32_t bad_loads;   /* so many loadings from now on get a wrong echo of byte 100 */
-    int32_t no_echo;      /* from which one on none comes back; -1: all do */
+    int32_t no_echo;      /* index from which on bytes are not echoed; -1: all are */
     int is_loading;
 } falcon_sim;
 
@@ -77,7 +77,7 @@ void falcon_sim_counts(const double position[3], int16_t counts[3]);
 /* The force (N) that motors make at a position, by virtual work; with libnifalcon's gain. */
 void falcon_sim_force(const double position[3], const int16_t motors[3], double force[3]);
 
-/* Puts the grip somewhere, to stand. */
+/* Puts the grip at a position, at rest. */
 void falcon_sim_put(falcon_sim *sim, double x, double y, double z);
 
 #endif

@@ -180,7 +180,7 @@ static void push(uint64_t tick, const knurl_device_sample *sample, double force[
     force[1] = 2.0;
 }
 
-/* The strongest motor, as it is told now. */
+/* The largest present motor value. */
 static int strongest_motor(void) {
     const falcon_sim sim = falcon_fake_look(&fake);
     int most = 0;
@@ -218,7 +218,7 @@ TEST(a_loop_comes_back_from_lost_homings_of_any_length_by_the_ramp) {
             sleep_ms(1);
         }
         assert_int_equal(before, full);
-        assert_true(steepest <= full / 7); /* a ramp of 20 ms; up to three of its steps between two looks */
+        assert_true(steepest <= full / 7); /* a ramp of 20 ms; up to three of its steps between two samples */
     }
     knurl_loop_destroy(running);
     running = NULL;

@@ -81,7 +81,8 @@ TEST(late_answers_are_no_positions) {
     close_fake(device);
 }
 
-/* A millimetre from where the grip was when the frames were sent whose answers come during 40 ms without the thread. */
+/* A millimetre from the grip's position at the sending of the frames whose answers arrive during 40 ms without the
+ * thread. */
 static void check_stall(int ms_before, uint32_t unanswered, int64_t late_ns) {
     int good = 0;
     begin();
@@ -155,7 +156,7 @@ TEST(encoders_that_no_hand_can_have_turned_are_no_position) {
     knurl_device *device = open_ready();
     (void)run(device, 20, no_force);
     knurl_system_mutex_lock(&fake.lock);
-    fake.sim.jump[2] = 0.5; /* out of reach: the sim tells counts of 0 rad, that is -961, for all legs */
+    fake.sim.jump[2] = 0.5; /* out of reach: the sim sends counts of 0 rad, that is -961, for all legs */
     fake.sim.jump[0] = 0.5;
     knurl_system_mutex_unlock(&fake.lock);
     (void)run(device, 40, no_force);

@@ -10,7 +10,7 @@ static uint8_t image[KNURL_FALCON_IMAGE_MOST + 2];
 static falcon_fake fake;
 static knurl_falcon_transport transport;
 
-/* Writes an image of so many bytes; returns what they add up to. */
+/* Writes an image of `size` bytes; returns their sum. */
 static uint32_t write_image(size_t size) {
     const uint32_t sum = falcon_image_make(image, size);
     write_file(tool_path("image.bin"), image, size);
@@ -218,7 +218,7 @@ static int read_pieces(void *self, uint8_t packet[KNURL_FALCON_PACKET], size_t *
     return KNURL_FALCON_DONE;
 }
 
-/* Else the driver would begin in the middle of an answer, and report it as corrupt. */
+/* Otherwise the driver would start in the middle of an answer, and report it as corrupt. */
 TEST(an_answer_whose_beginning_was_taken_in_is_taken_in_to_its_end) {
     plug_in();
     transport.read = read_pieces;

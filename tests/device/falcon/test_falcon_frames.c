@@ -1,4 +1,4 @@
-/* A Falcon's frames: digits, flags, finding them again in what is cut, doubled and foreign. SPDX-License-Identifier:
+/* A Falcon's frames: digits, flags, resynchronisation after cut, doubled and foreign bytes. SPDX-License-Identifier:
  * MIT
  */
 #include "support/close.h"

@@ -1,5 +1,5 @@
-/* What may come over the wire: random, mutated and cut frames in random packets. The decoder counts every byte, forward
- * kinematics says only what is true, motors stay within their limit. SPDX-License-Identifier: MIT */
+/* Random, mutated and cut frames in random packets. The decoder counts every byte, forward kinematics returns only true
+ * positions, motors stay within their limit. SPDX-License-Identifier: MIT */
 #include "support/close.h"
 
 #include "device/falcon/frame.h"
@@ -48,7 +48,7 @@ static size_t mutate(uint8_t bytes[32]) {
     return size;
 }
 
-/* What a driver does with an answer, checked. */
+/* Processes an answer like the driver, and checks it. */
 static int use(const knurl_falcon_state *state, double position[3]) {
     double theta[3];
     double force[3];

@@ -63,7 +63,7 @@ TEST(the_closed_form_solves_stampers_equations) {
 }
 
 /* The other root of the quadratic equation in tan(theta/2) by which libnifalcon solves the same leg, as an independent
- * published form: at the centre all legs stand alike. */
+ * published form: at the centre all legs have the same angles. */
 TEST(at_the_centre_all_legs_stand_alike) {
     const double centre[3] = {0.0, 0.0, 0.0};
     const double a = 0.060, b = 0.1025, c = 0.01443, de = 0.0225, v = -0.00191, u = -0.0400, w = 0.12;
@@ -197,7 +197,7 @@ TEST(what_is_no_number_or_out_of_reach_is_refused) {
     assert_int_equal(motors[0] | motors[1] | motors[2], 0);
 }
 
-/* Every answer that is given is one: its angles are those that were asked about. */
+/* Every result is a solution: its inverse gives the same angles. */
 TEST(forward_gives_a_true_answer_or_none) {
     uint64_t seed = 17;
     int found = 0;

@@ -43,7 +43,7 @@ TEST(a_falcon_is_among_the_devices) {
     assert_non_null(strstr(p.out, "{\"uri\": \"falcon\", \"name\": \"Novint Falcon\", \"unusable\": \"\"}"));
 }
 
-/* What stands below "uri" in the tool's listing. */
+/* The line below "uri" in the tool's listing. */
 static const char *line_below(const char *listing, const char *uri) {
     const char *at = strstr(listing, uri);
     const char *end = at ? strchr(at + 1, '\n') : NULL;

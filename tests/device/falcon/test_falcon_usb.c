@@ -73,13 +73,13 @@ static knurl_device *open_falcon(void) {
     return device;
 }
 
-/* The hand presses 1 mm below the floor, its spring of 700 N/m against the floor's 400: it rests where both agree. */
+/* The hand presses 1 mm below the floor, its spring of 700 N/m against the floor's 400: it rests at their balance. */
 TEST(a_loop_over_usb_holds_the_hand_off_the_floor) {
     falcon_emulation setup = {0};
     plug_in(&setup);
     knurl_device *device = open_falcon();
     const int64_t begin = knurl_system_now_ns();
-    run_until(device, 500, 400.0); /* the simulated hand goes on by a millisecond with each */
+    run_until(device, 500, 400.0); /* the simulated hand advances by a millisecond with each */
     const double seconds = 1e-9 * (double)(knurl_system_now_ns() - begin);
     const knurl_device_status status = device_status(device);
     const falcon_sim sim = falcon_emulated_look();
@@ -106,7 +106,7 @@ TEST(short_packets_change_nothing) {
     falcon_emulated_stop();
 }
 
-/* Ten answers in packets of 6 bytes, 27 in all, none of which is read before the last frame has been sent. */
+/* Ten answers in packets of 6 bytes, 27 in all, all unread until the last frame was sent. */
 TEST(answers_that_wait_to_be_read_are_all_there) {
     static const int16_t none[3] = {0, 0, 0};
     falcon_emulation setup = {0};
@@ -201,7 +201,7 @@ TEST(a_device_that_somebody_else_holds_is_refused) {
     falcon_emulated_stop();
 }
 
-/* As root nothing is denied, so that root becomes nobody for this. */
+/* root may open everything, so it becomes user nobody for this. */
 TEST(a_device_that_may_not_be_used_names_the_rule) {
     falcon_emulation setup = {0};
     knurl_device *device = NULL;
@@ -229,7 +229,7 @@ TEST(a_device_that_may_not_be_used_names_the_rule) {
     falcon_emulated_stop();
 }
 
-/* libusb tells no descriptors of devices: that the one found is the device's. */
+/* libusb does not expose descriptors: checks that the one found is the device's. */
 TEST(what_a_guard_gets_is_the_devices_own_descriptor) {
     falcon_emulation setup = {0};
     knurl_falcon_transport transport;

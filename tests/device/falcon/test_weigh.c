@@ -1,4 +1,5 @@
-/* Weighing a mass with a simulated Falcon whose gain is another than it is told. SPDX-License-Identifier: MIT */
+/* Weighing a mass with a simulated Falcon whose true gain differs from the configured one. SPDX-License-Identifier: MIT
+ */
 #include "support/tool.h"
 
 #include "device/driver.h"
@@ -9,7 +10,7 @@
 
 static falcon_fake fake;
 
-/* A Falcon in nobody's hand, at rest in the middle. */
+/* A Falcon without a hand, at rest in the middle. */
 static knurl_device *open_loose(double true_gain, const char *options) {
     knurl_device *device = NULL;
     falcon_fake_init(&fake, NULL);

@@ -1,4 +1,4 @@
-/* A caller's functions over a simulated device. It stands in memory that children share, so that a crash can be seen
+/* A caller's functions over a simulated device. It is in memory shared with children, so that a crash can be observed
  * from outside. SPDX-License-Identifier: MIT */
 #define _DEFAULT_SOURCE 1 /* MAP_ANONYMOUS */
 
@@ -24,7 +24,7 @@ static knurl_device *open_one(uint32_t blocking) {
     h = &memory->device;
     memset(memory, 0, sizeof *memory);
     h->limp_since = now_ns();
-    h->hangs_for = 5000000; /* what a caller is asked to return within */
+    h->hangs_for = 5000000; /* the caller's time limit */
     h->mute_ns = 2000000;
     h->takes_ns = 300000;
     const knurl_device_functions f = home_functions(h, blocking);

@@ -6,13 +6,13 @@
 
 extern const device_double functions_double;
 
-/** Of functions_double's read, ns with DOUBLE_HANG: longer than it is asked to return within. After open. */
+/** Of functions_double's read, ns with DOUBLE_HANG: longer than its time limit. Call it after open. */
 void functions_double_hang(int64_t ns);
 
 /** A time in memory that children share, as the motors of both doubles are once one was opened. */
 int64_t *functions_double_mark(void);
 
-/** The same without an I/O thread, for what befalls the haptic thread. */
+/** The same without an I/O thread, for faults of the haptic thread. */
 extern const device_double plain_double;
 
 #endif

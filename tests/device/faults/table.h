@@ -4,10 +4,10 @@
 
 #include <knurl/device.h>
 
-/** What one try came to. Times in ms. */
+/** Result of one try. Times in ms. */
 typedef struct outcome {
-    double seen; /**< from the injection to the event; < 0: there was none */
-    double zero; /**< from the event to motors without force, 0 where they had none by then; < 0: they kept it */
+    double seen; /**< from the injection to the event; < 0: no event */
+    double zero; /**< from the event to zero force, 0 if it was already zero; < 0: the force stayed */
     int is_back; /**< the force came back after all was well again */
     int32_t codes[8];
     int code_count;
@@ -16,7 +16,7 @@ typedef struct outcome {
 typedef struct row {
     const char *device;
     const char *fault;
-    const char *what; /**< what happens, or null: its events */
+    const char *what; /**< effect of the fault, or null: its events */
     const char *back; /**< how it comes back, or null: yes or no */
     outcome result;
 } row;

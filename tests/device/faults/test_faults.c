@@ -1,6 +1,6 @@
 /* The table of faults: every device's double, every fault that it can have, and the loop's own, in real loops on
- * virtual time. What is asserted: what happens, that the motors get no force within 5 ms of the event, and that the
- * force comes back. SPDX-License-Identifier: MIT */
+ * virtual time. Asserts the events, zero force within 5 ms of the event, and the return of the force.
+ * SPDX-License-Identifier: MIT */
 #define _DEFAULT_SOURCE 1
 
 #include "functions_double.h"
@@ -25,11 +25,11 @@ static int row_count;
 /* ms after an event within which there must be no force. */
 #define BOUND 5.0
 
-/* What is expected of a fault, whoever's it is. A cable that is pulled cuts the host off: then what a device's firmware
- * does by itself counts. */
+/* Expectations for a fault on any device. A pulled cable cuts the host off: then the firmware's own behaviour counts.
+ */
 static const struct {
     const char *text;
-    int32_t codes[3]; /* one of these must come; 0: none may */
+    int32_t codes[3]; /* one of these must come; 0: no event may come */
 } faults[DOUBLE_FAULT_COUNT] = {
     [DOUBLE_UNPLUG] = {"unplugged", {KNURL_FAULT_LOST}},
     [DOUBLE_MUTE] = {"takes all, never answers", {KNURL_FAULT_SILENT, KNURL_FAULT_LOST}},
@@ -52,7 +52,7 @@ typedef struct trial {
     knurl_device *device;
     knurl_loop *loop;
     int64_t injected;   /* ns */
-    int64_t seen;       /* ns, of the fault that zeroed it: the latest before the motors had no force */
+    int64_t seen;       /* ns, of the fault that zeroed it: the last one before the motors had no force */
     int64_t limp;       /* ns; 0: they always had one */
     int64_t stall_ns;   /* atomic: the next tick takes so long */
     uint32_t game_dead; /* 1: no more heartbeats */
@@ -88,7 +88,7 @@ static void begin(trial *t, const device_double *on, double heartbeat) {
     assert_int_equal(knurl_loop_start(t->loop), KNURL_OK);
 }
 
-/* Waits for `is_limp`, up to `ms`, with the game alive; 1 where it came to that. */
+/* Waits for `is_limp`, up to `ms`, with heartbeats. Returns 1 if it was reached. */
 static int wait_for_limp(trial *t, int is_limp, int ms) {
     const int64_t until = now_ns() + (int64_t)ms * 1000000;
     while ((t->on->limp_since() > 0) != is_limp && now_ns() < until) {
@@ -100,7 +100,7 @@ static int wait_for_limp(trial *t, int is_limp, int ms) {
     return (t->on->limp_since() > 0) == is_limp;
 }
 
-/* Writes down the events there are; those before the motors had no force are what zeroed it. */
+/* Records the events; those before the motors had no force caused it. */
 static void take_events(trial *t, int but) {
     knurl_device_event event;
     outcome *r = &t->result;
@@ -136,7 +136,7 @@ static void end(trial *t) {
     t->on->close(t->device);
 }
 
-/* Lets it pull for a while, and forgets what came before. */
+/* Lets it pull for a while, and clears earlier events. */
 static void settle(trial *t) {
     assert_int_equal(wait_for_limp(t, 0, 3000), 1);
     const int64_t until = now_ns() + 40000000;
@@ -162,7 +162,7 @@ static outcome try_fault(int fault) {
         t.limp = on->limp_since();
         t.limp = t.limp > 0 ? t.limp : now_ns(); /* it came back in between */
     }
-    sleep_ns(20000000); /* longer than its latest position holds */
+    sleep_ns(20000000); /* longer than its last position is valid */
     take_events(&t, KNURL_FAULT_OVERRUN);
     on->inject(DOUBLE_WELL);
     t.result.is_back = wait_for_limp(&t, 0, 5000);
@@ -324,7 +324,7 @@ static int is_heartbeat(const outcome *r, int which) {
     return has(r, KNURL_FAULT_HEARTBEAT) && r->is_back && r->seen >= 48.0 && r->zero >= 15.0 && r->zero <= 40.0;
 }
 
-/* A caller's function that does not keep to its 5 ms: nobody else can write meanwhile. */
+/* A caller's function that exceeds its 5 ms: no other thread can write meanwhile. */
 static outcome try_block(int which) {
     (void)which;
     trial t;

@@ -1,9 +1,9 @@
-/* emulate_inverse3 FAULT COMMAND...: runs COMMAND, in whose arguments PORT stands for the port of this machine at which
- * an emulated Haply Inverse Service answers, and exits with its code. The hand strokes along x, 1 mm below y = 0 at the
- * middle of the workspace. FAULT happens 0.1 s after a client has connected: none, unplugged, unpowered, closed
- * (the service ends), mute, late (20 ms), garbage, long (70 KB). Others hold from the beginning: old (before 3.5),
- * silent (no first message), strange (a first message that is no JSON), two (another device is listed first).
- * SPDX-License-Identifier: MIT */
+/* emulate_inverse3 FAULT COMMAND...: runs COMMAND with PORT in its arguments replaced by the port of an emulated Haply
+ * Inverse Service on this machine, and exits with its code. The hand strokes along x, 1 mm below y = 0 at the middle of
+ * the workspace. FAULT happens 0.1 s after a client has connected: none, unplugged, unpowered, closed (the service
+ * ends), mute, late (20 ms), garbage, long (70 KB). Others apply from the start: old (before 3.5), silent (no first
+ * message), strange (a first message that is not JSON), two (another device is listed first). SPDX-License-Identifier:
+ * MIT */
 #define _GNU_SOURCE
 
 #include "device/inverse3/inverse3_sim.h"
@@ -143,7 +143,7 @@ static lws_sorted_usec_list_t timer;
 
 static struct lws_context *context;
 
-/* Wakes the loop, which looks after its child. */
+/* Wakes the loop, which checks its child. */
 static void on_timer(lws_sorted_usec_list_t *at) {
     (void)at;
     lws_cancel_service(context);

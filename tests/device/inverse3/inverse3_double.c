@@ -63,7 +63,7 @@ static int channel_send(void *self, const char *text, size_t size) {
     return works;
 }
 
-/* What is due now. The newest answer stands for all that come at once. */
+/* Takes the answer that is due. The newest one replaces all that arrive at once. */
 static int take(knurl_inverse3_message *message) {
     int came = 0;
     knurl_system_mutex_lock(&d.mutex);

@@ -8,10 +8,10 @@
 
 extern const device_double inverse3_double;
 
-/** The simulated service, set up anew, and the driver opened on it; null where that fails. */
+/** Resets the simulated service and opens the driver on it; null on failure. */
 knurl_device *inverse3_double_open(const char *options);
 
-/** What is simulated. Between inverse3_double_begin() or an opening, and the device's end. */
+/** The simulation. Valid from inverse3_double_begin() or an opening to the device's end. */
 inverse3_sim *inverse3_double_sim(void);
 
 /** The same while a device is open: the driver's thread waits until it is given back. */
@@ -21,7 +21,7 @@ void inverse3_double_give_back(void);
 void inverse3_double_begin(void);
 const knurl_inverse3_service *inverse3_double_service(void);
 
-/** From now on this is every answer; null: what it is. */
+/** Replaces every answer from now on; null: real answers. */
 void inverse3_double_say(const char *text, size_t size);
 
 /** Connections that are open. */

@@ -78,7 +78,7 @@ static const char state[] =
     "\"rotation\":{\"w\":1,\"x\":0,\"y\":0,\"z\":0},\"scale\":{\"x\":1,\"y\":1,\"z\":1}}},\"status\":{"
     "\"calibrated\":%s,\"in_use\":false,\"power_supply\":%s,\"ready\":%s,\"started\":true}}";
 
-/* The handle points 90 degrees to the left of where it does at rest: turned about z, which points up. Its button a is
+/* The handle is turned by 90 degrees to the left from its rest pose, about z, which points up. Its button a is
  * pressed from the first second on. A custom one has its maker's buttons and data as well. */
 #define TURNED "\"orientation\":{\"w\":0.7071067811865476,\"x\":0.0,\"y\":0.0,\"z\":0.7071067811865476}"
 
@@ -145,7 +145,7 @@ static int say(inverse3_sim *sim, double seconds, int is_first, char text[INVERS
 
 int inverse3_sim_greet(inverse3_sim *sim, double seconds, char text[INVERSE3_SIM_ROOM]) {
     sim->is_centered = 0; /* a connection is a session with a configuration of its own */
-    sim->damping = 2.0;   /* as the Hub has it for all sessions that set none */
+    sim->damping = 2.0;   /* the Hub's setting for sessions that do not set it */
     return say(sim, seconds, 1, text);
 }
 

@@ -115,7 +115,7 @@ TEST(each_type_has_its_own_name_workspace_and_force_and_others_are_refused) {
 }
 
 /* The service's filter pipeline: viscous damping is set for the session, its oscillation damper cannot be, and the
- * force gate's gain has no published meaning: it stays, and the device's name tells it. */
+ * force gate's gain has no published meaning: it is kept, and shown in the device's name. */
 TEST(the_sessions_damping_is_off_and_the_force_gate_is_told) {
     knurl_device_sample sample;
     SCOPED_DEVICE *device = open_released("");
@@ -135,7 +135,7 @@ TEST(forces_are_no_stronger_than_it_can_play) {
     knurl_device_sample sample;
     SCOPED_DEVICE *device = open_released("");
     (void)run(device, 10, force, &sample);
-    CHECK_CLOSE(inverse3_double_sim()->force[2], 4.0, 1e-12); /* what is up in Knurl is the service's z */
+    CHECK_CLOSE(inverse3_double_sim()->force[2], 4.0, 1e-12); /* up in Knurl is the service's z */
     const knurl_device_info info = device_info(device);
     CHECK_SAME(info.max_force, 4.0);
     CHECK_SAME(info.max_stiffness, 1000.0);
@@ -237,7 +237,7 @@ static void check_lost_and_had_back(void (*lose)(void), void (*mend)(void)) {
     mend();
     assert_int_equal(knurl_device_start(device, 1000.0), KNURL_OK);
     assert_int_equal(run(device, 50, force, &sample), KNURL_OK);
-    CHECK_SAME(inverse3_double_sim()->force[2], 0.0); /* until the halt is released */
+    CHECK_SAME(inverse3_double_sim()->force[2], 0.0); /* zero until the halt is released */
     CHECK_CLOSE(sample.position[0], 0.0, 0.001);      /* positions count from the middle again */
     knurl_device_close(device);
     assert_int_equal(inverse3_double_connections(), 0);
@@ -257,7 +257,7 @@ static void end_service(void) {
 
 static void begin_service(void) {
     const double limp[3] = {0.0, 0.0, 0.0};
-    memcpy(inverse3_double_sim()->force, limp, sizeof limp); /* it starts anew */
+    memcpy(inverse3_double_sim()->force, limp, sizeof limp); /* restart it */
     inverse3_double_end_service(0);
 }
 
@@ -269,7 +269,7 @@ TEST(a_service_that_ends_is_a_loss_and_the_device_is_had_back) {
     check_lost_and_had_back(end_service, begin_service);
 }
 
-/* An answer without a position, one that is too long (told by a size of 0), another JSON. */
+/* An answer without a position, one that is too long (size 0), other JSON. */
 TEST(an_answer_that_is_none_zeroes_the_force_and_is_counted) {
     static const struct {
         const char *text;
@@ -293,7 +293,7 @@ TEST(an_answer_that_is_none_zeroes_the_force_and_is_counted) {
     }
 }
 
-/* One answer a message, in order: what answers an earlier one is no position of now. */
+/* One answer per message, in order: answers to earlier messages are not present positions. */
 TEST(answers_that_stay_behind_are_no_positions) {
     static const double force[3] = {0.0, 1.0, 0.0};
     knurl_device_sample sample;
@@ -350,7 +350,7 @@ static knurl_device *open_in_loop(knurl_loop **loop) {
     return device;
 }
 
-/* How often this event came, and its latest value; the others are thrown away. */
+/* Removes all events. Returns the count of this one, and its last value. */
 static int count_events(knurl_device *device, int32_t code, double *value) {
     knurl_device_event event;
     int count = 0;
@@ -401,7 +401,7 @@ TEST(a_state_that_leaves_the_device_out_once_changes_nothing) {
     knurl_loop_destroy(loop);
 }
 
-/* It may be there all the same, and plays what it was told last. */
+/* It may still be connected, and play its last force. */
 TEST(before_a_device_that_is_left_out_counts_as_lost_it_is_told_no_force) {
     double value = 0.0;
     knurl_loop *loop = NULL;

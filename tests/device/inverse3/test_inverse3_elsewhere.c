@@ -1,5 +1,5 @@
-/* The client of Haply's service talks to this machine's port and to nobody else: neither a redirect nor a proxy of the
- * environment leads it away. Over real sockets. SPDX-License-Identifier: MIT */
+/* The client of Haply's service connects only to this machine's port: it follows neither a redirect nor a proxy of the
+ * environment. Over real sockets. SPDX-License-Identifier: MIT */
 #include "support/close.h"
 
 #include <arpa/inet.h>
@@ -31,7 +31,7 @@ static listener listen_somewhere(void) {
     return made;
 }
 
-/* Somebody has connected, or does within this time. */
+/* 1: a client has connected, or does within this time. */
 static int has_caller(const listener *l, int ms) {
     struct pollfd ready = {l->descriptor, POLLIN, 0};
     return poll(&ready, 1, ms) > 0;
@@ -40,10 +40,10 @@ static int has_caller(const listener *l, int ms) {
 static struct {
     listener here, elsewhere;
     const char *location; /* a format for a port; null: answers nothing */
-    int calls;            /* that came to where they should */
+    int calls;            /* at the right port */
 } it;
 
-/* One caller, who is sent elsewhere. */
+/* Redirects one caller. */
 static void *answer(void *nothing) {
     char text[1024];
     (void)nothing;
@@ -62,7 +62,7 @@ static void *answer(void *nothing) {
     return NULL;
 }
 
-/* 1: the client went elsewhere. */
+/* 1: the client followed. */
 static int goes_elsewhere(const char *location) {
     char uri[64];
     pthread_t thread;

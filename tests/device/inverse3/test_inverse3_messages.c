@@ -1,4 +1,4 @@
-/* Messages of the Haply Inverse Service: what is read, what is refused, what is written. SPDX-License-Identifier: MIT
+/* Messages of the Haply Inverse Service: accepted, refused and written ones. SPDX-License-Identifier: MIT
  */
 #include "device/inverse3/inverse3_sim.h"
 #include "device/inverse3/message.h"
@@ -14,7 +14,7 @@ static int read_text(const char *message) {
     return knurl_inverse3_read(message, strlen(message), &heard);
 }
 
-/* As https://docs.haply.co/inverseSDK/service/realtime/websocket-protocol has it. */
+/* From https://docs.haply.co/inverseSDK/service/realtime/websocket-protocol has it. */
 TEST(the_documented_first_message_is_read) {
     inverse3_sim_init(&sim, 0.0, 0);
     (void)inverse3_sim_greet(&sim, 0.0, text);
@@ -180,7 +180,7 @@ TEST(a_message_with_a_custom_grip_is_read) {
     CHECK_CLOSE(q[3], 0.50668335, 1e-3);
 }
 
-/* Every cut and a thousand changes of single bytes: read or refused, and what is read is finite. */
+/* Every cut and a thousand changes of single bytes: refused, or read as finite numbers. */
 TEST(a_message_that_is_cut_or_changed_anywhere_does_no_harm) {
     uint64_t random = 88172645463325252u;
     inverse3_sim_init(&sim, 0.0, 0);
@@ -213,7 +213,7 @@ TEST(more_devices_than_there_is_room_for_are_left_out) {
     assert_null(knurl_inverse3_find(&heard, "8"));
 }
 
-/* A turn by 90 degrees about what points up, and one about what points right: up and right are Knurl's y and x. */
+/* A turn by 90 degrees about the vertical, and one about the right: Knurl's y and x. */
 TEST(orientations_are_turned_into_knurls_axes) {
     static const double half = 0.7071067811865476;
     double q[4];
@@ -231,7 +231,7 @@ TEST(orientations_are_turned_into_knurls_axes) {
     CHECK_SAME(q[0], 0.0);
 }
 
-/* As https://docs.haply.co/inverseSDK/service/realtime/control-commands has it. */
+/* From https://docs.haply.co/inverseSDK/service/realtime/control-commands has it. */
 TEST(a_force_is_written_as_documented_in_the_services_axes) {
     static const double force[3] = {0.25, 1.5, -0.0000012};
     char command[KNURL_INVERSE3_COMMAND];

@@ -40,8 +40,8 @@ static int tells(const process *p, const char *word) {
     return strstr(p->err, word) || strstr(p->out, word);
 }
 
-/* 0.1 s in; the tool ends with it, or plays on without a force. An answer that comes after 5 ms is silence, whatever it
- * says: where the machine is too busy to pass on 70 KB within that time, the fault is tried again. */
+/* After 0.1 s; the tool ends with it, or continues without a force. An answer after 5 ms counts as silence: if the
+ * machine is too busy to transfer 70 KB within that time, the fault is tried again. */
 TEST(faults_of_the_service_are_told) {
     static const struct {
         const char *fault, *seconds, *words;
@@ -81,7 +81,7 @@ TEST(what_cannot_be_opened_is_one_sentence_and_quick) {
     assert_true(now_s() - begin < 1.0);
 }
 
-/* libwebsockets has the process ignore it. */
+/* libwebsockets makes the process ignore it. */
 TEST(what_the_process_does_at_SIGPIPE_stays_as_it_was) {
     struct sigaction now;
     struct {

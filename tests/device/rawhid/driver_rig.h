@@ -1,4 +1,4 @@
-/* What the tests of the raw HID driver share: the simulated bus, the device opened on it, ticks as a loop makes them.
+/* Shared by the tests of the raw HID driver: the simulated bus, the device opened on it, ticks as a loop makes them.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_TEST_DRIVER_RIG_H
 #define KNURL_TEST_DRIVER_RIG_H
@@ -61,7 +61,7 @@ static inline uint32_t commands_sent(void) {
     return commands;
 }
 
-/* The latest report, its ID first; returns its length. */
+/* The last report, its ID first; returns its length. */
 static inline size_t last_sent(uint8_t bytes[HID_SIM_MOST_BYTES + 1]) {
     knurl_system_mutex_lock(&hid.mutex);
     const size_t size = hid.last_size;
@@ -76,7 +76,7 @@ static inline void press_button(void) {
     knurl_system_mutex_unlock(&hid.mutex);
 }
 
-/* What must leave the output alone. */
+/* Outputs that a failed open must not change. */
 typedef struct opened {
     knurl_device *device;
 } opened;
@@ -120,7 +120,7 @@ static inline void wait_for_event(int32_t code) {
     fail_msg("no event '%s'", knurl_fault_name(code));
 }
 
-/* Ticks for a time as a loop does that always comes back from a halt. */
+/* Ticks for a time, like a loop that always recovers from a halt. */
 static inline void hold(double seconds, const double force[3]) {
     knurl_device_sample sample;
     const int64_t until = knurl_system_now_ns() + (int64_t)(seconds * 1e9);

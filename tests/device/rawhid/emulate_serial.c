@@ -18,7 +18,7 @@ static double seconds(void) {
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* Answers what has come; returns how much of it was no whole line yet. */
+/* Answers complete lines; returns the number of bytes of an incomplete one. */
 static size_t answer(hid_sim *sim, int terminal, char *text, size_t count) {
     text[count] = '\0';
     for (char *end = strchr(text, ']'); end; end = strchr(text, ']')) {
@@ -55,7 +55,7 @@ int main(int argc, char **argv) {
         (void)fprintf(stderr, "usage: %s LINK -- COMMAND...\n", argv[0]);
         return 2;
     }
-    const int kept = open(ptsname(terminal), O_RDWR | O_NOCTTY); /* so that the terminal lasts from one to the next */
+    const int kept = open(ptsname(terminal), O_RDWR | O_NOCTTY); /* keeps the terminal open between two commands */
     (void)unlink(argv[1]);
     if (kept < 0 || symlink(ptsname(terminal), argv[1])) {
         perror(argv[1]);

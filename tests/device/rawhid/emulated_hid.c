@@ -45,7 +45,7 @@ static void *device_thread(void *argument) {
             continue;
         }
         const ssize_t got = read(hid->fd, bytes + have, whole - have);
-        if (got <= 0) { /* nobody has the other end open */
+        if (got <= 0) { /* the other end is not open */
             have = 0;
             usleep(1000);
             continue;
@@ -59,7 +59,7 @@ static void *device_thread(void *argument) {
     return NULL;
 }
 
-/* What hidapi asks when it opens a node. */
+/* hidapi's requests when it opens a node. */
 static gboolean on_ioctl(UMockdevIoctlBase *base, UMockdevIoctlClient *client, gpointer user) {
     const emulated_hid *hid = user;
     const gulong request = umockdev_ioctl_client_get_request(client);
@@ -194,7 +194,7 @@ int emulated_hid_plug(emulated_hid *hid, uint16_t usage_page, uint8_t report_byt
     return hid->fd >= 0 && pthread_create(&hid->thread, NULL, device_thread, hid) == 0;
 }
 
-/* umockdev keeps the terminal in its books, and stumbles when the system gives its number to the next one. */
+/* umockdev remembers the terminal, and fails if the system reuses its number. */
 static void forget_terminal(const emulated_hid *hid) {
     char path[1024];
     unsigned number = 0;

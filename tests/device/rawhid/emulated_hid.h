@@ -15,7 +15,7 @@ typedef struct emulated_hid {
     UMockdevIoctlBase *ioctls;
     pthread_t thread;
     int fd;    /* the device's end; -1: not plugged in */
-    int plugs; /* so often has it been plugged in: each time it gets another node */
+    int plugs; /* number of times plugged in: each time it gets another node */
     uint8_t descriptor[28];
     knurl_mutex mutex; /* over the rest */
     hid_sim sim;

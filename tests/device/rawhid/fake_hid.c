@@ -11,7 +11,7 @@ static double seconds(void) {
 }
 
 static void push(fake_hid *hid, const uint8_t *bytes, size_t size, int64_t due) {
-    if (hid->head - hid->tail < FAKE_HID_QUEUE) { /* as the kernel: what has no room is lost */
+    if (hid->head - hid->tail < FAKE_HID_QUEUE) { /* like the kernel: drops reports if the queue is full */
         const uint32_t at = hid->head++ % FAKE_HID_QUEUE;
         memcpy(hid->queue[at].bytes, bytes, size);
         hid->queue[at].size = size;

@@ -1,4 +1,4 @@
-/* A bus with one simulated WoodenHaptics on it, in real time, and what can be done to both. SPDX-License-Identifier:
+/* A bus with one simulated WoodenHaptics on it, in real time, and functions to control both. SPDX-License-Identifier:
  * MIT
  */
 #ifndef KNURL_TEST_FAKE_HID_H
@@ -11,7 +11,7 @@
 #define FAKE_HID_QUEUE 64
 
 typedef struct fake_hid {
-    knurl_mutex mutex; /* over all that follows */
+    knurl_mutex mutex; /* for all following fields */
     hid_sim sim;
     knurl_rawhid_found found[4]; /* interfaces that are connected; the first is the device's */
     size_t found_count;
@@ -20,7 +20,7 @@ typedef struct fake_hid {
     uint32_t opened, closed;
     uint32_t refuses_opening;
     uint32_t ignores_commands;
-    uint8_t last[HID_SIM_MOST_BYTES + 1]; /* the latest report that was sent, its ID first */
+    uint8_t last[HID_SIM_MOST_BYTES + 1]; /* the last report sent, its ID first */
     size_t last_size;
     uint32_t written;
     struct {

@@ -68,7 +68,7 @@ int hid_sim_bend(const double own[3], double angles[3]) {
         }
         slopes(angles, slope);
         solve(slope, 0, miss, step);
-        const double share = fmin(1.0, 0.05 / far); /* not too far at once: what is straight here is not there */
+        const double share = fmin(1.0, 0.05 / far); /* limits the step: the linearisation is only local */
         for (int joint = 0; joint < 3; joint++) {
             angles[joint] += share * step[joint];
         }
@@ -90,7 +90,7 @@ void hid_sim_push(const double angles[3], const int16_t ma[3], double force[3]) 
     force[2] = own[0]; /* towards the user */
 }
 
-/* The arm where the plant has the grip. */
+/* Moves the arm to the plant's grip position. */
 static void follow(hid_sim *sim) {
     const double *p = sim->plant.position;
     const double own[3] = {p[2] + sim->shift[2], p[0] + sim->shift[0], p[1] + sim->shift[1]};

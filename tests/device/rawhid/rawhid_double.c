@@ -30,7 +30,7 @@ static knurl_device *double_open_backwards(void) {
     return open_wired(7, "");
 }
 
-/* Whose place was lost is well again when somebody has pressed its home button. */
+/* A device that lost its counters recovers when its home button is pressed. */
 static void double_inject(int fault) {
     static int latest;
     fake_hid_inject(&hid, fault);

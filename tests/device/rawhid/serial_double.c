@@ -9,7 +9,7 @@
 #define ROOM 4096
 
 static struct {
-    knurl_mutex mutex; /* over all of it */
+    knurl_mutex mutex; /* for all fields */
     hid_sim sim;
     int fault;
     int model;
@@ -20,7 +20,7 @@ static struct {
     size_t heard_count;
     char said[ROOM];
     size_t said_count;
-    int64_t due; /* ns: nothing that was said comes earlier */
+    int64_t due; /* ns: answers are not delivered earlier */
 } d;
 
 static double seconds(void) {
@@ -160,7 +160,7 @@ static knurl_device *double_open_backwards(void) {
     return serial_double_open("");
 }
 
-/* What was unplugged has lost its power: its counters begin with 0, and it is homed by its button. */
+/* An unplugged device has lost its power: its counters start at 0, and its button homes it. */
 static void double_inject(int fault) {
     knurl_system_mutex_lock(&d.mutex);
     const int was = d.fault;

@@ -13,10 +13,10 @@ extern const knurl_serial_ports serial_double_ports;
 /** Its button is pressed. */
 void serial_double_press(void);
 
-/** As another device's firmware: what it says first in each line. */
+/** Imitates another device's firmware: the first number of each line. */
 void serial_double_model(int model);
 
-/** From now on this is every answer; null: what it is. */
+/** Replaces every answer from now on; null: real answers. */
 void serial_double_say(const char *line);
 
 /** Opens the driver on it with options. */

@@ -1,6 +1,6 @@
-/* What the makers' Teensy 4.0 firmware woody_teensy_mini says to a line, over the simulated arm: written from its
- * source. Its encoders b and c count the other way than those of the older firmwares, which the arm has, and all are 0
- * in the home pose. SPDX-License-Identifier: MIT */
+/* The answers of the makers' Teensy 4.0 firmware woody_teensy_mini, over the simulated arm, written from its source.
+ * Its encoders b and c count in the opposite direction to the older firmwares', which the arm has, and all are 0 in the
+ * home pose. SPDX-License-Identifier: MIT */
 #ifndef KNURL_TEST_SERIAL_SIM_H
 #define KNURL_TEST_SERIAL_SIM_H
 
@@ -18,7 +18,7 @@ static inline void serial_sim_init(hid_sim *sim, const knurl_stroke_desc *stroke
     sim->offset[2] = -6000;
 }
 
-/* Its button: all counters are 0 where the arm is. */
+/* Presses its button: all counters become 0 in the arm's present pose. */
 static inline void serial_sim_press(hid_sim *sim) {
     hid_sim_forget(sim);
 }

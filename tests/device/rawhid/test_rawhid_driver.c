@@ -10,7 +10,7 @@ TEST_WITH(it_opens_with_reports_of_14_and_of_64_bytes_and_tells_where_it_is, set
         fake_hid_init(&hid, lengths[i], NULL);
         open_device("");
         const knurl_device_sample sample = wait_for_position();
-        assert_true(vec3_length(sample.position) < 0.0003); /* the middle, but for the encoders' steps and friction */
+        assert_true(vec3_length(sample.position) < 0.0003); /* the middle, within the encoders' steps and friction */
         uint8_t last[HID_SIM_MOST_BYTES + 1];
         assert_int_equal(last_sent(last), lengths[i] + 1);
         knurl_device_close(device);
@@ -107,7 +107,7 @@ TEST_WITH(what_it_is_is_told, set_up, tear_down) {
     open_device("");
     const knurl_device_info info = device_info(device);
     assert_string_equal(info.name, "WoodenHaptics v2015");
-    CHECK_SAME(info.max_force, 3.0); /* what 2 A give in every direction in the middle: 3.2 N, rounded down */
+    CHECK_SAME(info.max_force, 3.0); /* the force of 2 A in every direction in the middle: 3.2 N, rounded down */
     CHECK_SAME(info.max_stiffness, 1000.0);
     CHECK_SAME(info.native_rate, 1000.0);
     CHECK_SAME(info.delay, 2.0);
@@ -153,7 +153,7 @@ TEST_WITH(home_1_sets_the_counters_to_the_home_pose, set_up, tear_down) {
     hid_sim_say(&hid.sim, said);
     knurl_system_mutex_unlock(&hid.mutex);
     assert_int_equal(commands_sent(), 1);
-    for (int i = 0; i < 3; i++) { /* 0, 0, 6000, up to what the hand has moved */
+    for (int i = 0; i < 3; i++) { /* 0, 0, 6000, within the hand's motion */
         const int counts = (int16_t)(said[2 * i] | said[2 * i + 1] << 8);
         assert_true(abs(counts - (i == 2 ? 6000 : 0)) <= 100);
     }
@@ -189,8 +189,8 @@ TEST_WITH(its_button_homes_it_and_positions_come_again_after_a_pause, set_up, te
 
 /* --- forces --- */
 
-/* 2000 N/m; 0.3 N of friction, and the encoders' steps. And what the motors push with is what was asked for, up to half
- * a milliampere a motor and what the arm moves in a millisecond. */
+/* 2000 N/m; 0.3 N of friction, and the encoders' steps. And the motors' force is the requested one, within half a
+ * milliampere per motor and the arm's motion in a millisecond. */
 static int has_followed(const double force[3]) {
     const double expected[3] = {force[0] / 2000.0, force[1] / 2000.0, force[2] / 2000.0};
     knurl_device_sample sample;
@@ -261,7 +261,7 @@ TEST_WITH(closing_leaves_the_motors_without_current, set_up, tear_down) {
     knurl_device_close(device);
     device = NULL;
     assert_true(fake_hid_limp_since(&hid) != 0);
-    assert_int_equal(greatest_current(), 0); /* not by its watchdog, half a second later */
+    assert_int_equal(greatest_current(), 0); /* earlier than by its watchdog after half a second */
     for (size_t i = 0; i < hid.last_size; i++) {
         assert_int_equal(hid.last[i], 0);
     }

@@ -1,4 +1,4 @@
-/* What goes wrong with a raw HID device: what must come in the end, and what must never be.
+/* Faults of a raw HID device: required results, and forbidden ones.
  * SPDX-License-Identifier: MIT */
 #include "device/port.h"
 #include "device/rawhid/driver_rig.h"
@@ -62,7 +62,7 @@ TEST_WITH(old_reports_in_the_queue_are_no_positions, set_up, tear_down) {
         fake_hid_push(&hid, old, sizeof old);
         sleep_s(0.001);
         if (knurl_device_read(device, &sample) == KNURL_OK) {
-            /* one may slip in between the driver's look at the queue and its own report */
+            /* a report may arrive between the driver's check of the queue and its own report */
             assert_true(fabs(sample.position[0]) < 0.0003 || fabs(sample.position[0] - 0.0086) < 0.0003);
         }
     }
@@ -81,7 +81,7 @@ TEST_WITH(unplugged_it_is_lost_and_plugged_in_again_it_is_found, set_up, tear_do
     const int64_t pulled = knurl_system_now_ns();
     fake_hid_inject(&hid, DOUBLE_UNPLUG);
     assert_true(tick_until(KNURL_ERROR_DEVICE_LOST, force, 5.0, &sample));
-    assert_true(knurl_system_now_ns() - pulled < 900000000); /* the system tells, before a second of silence does */
+    assert_true(knurl_system_now_ns() - pulled < 900000000); /* reported by the system, before a second of silence */
     wait_for_event(KNURL_FAULT_LOST);
     assert_int_equal(knurl_device_reopen(device), KNURL_ERROR_DEVICE_LOST);
     check_message("16c0:0486");
@@ -104,7 +104,7 @@ TEST_WITH(a_second_of_silence_is_a_device_that_is_lost, set_up, tear_down) {
     (void)wait_for_position();
 }
 
-/* With home=1, and its cable in again while the hand is in mid-air: its counters are as good as before. */
+/* With home=1, and its cable in again while the hand is in mid-air: its counters are still valid. */
 TEST_WITH(found_again_it_is_homed_only_if_it_lost_its_counters, set_up, tear_down) {
     knurl_device_sample sample;
     for (int loses = 0; loses < 2; loses++) {

@@ -1,5 +1,5 @@
-/* What comes from the wire or from a file and is nonsense: no crash, no undefined behaviour, nothing believed that is
- * not whole, nothing touched where it is refused. KNURL_FUZZ=N: N times as much. SPDX-License-Identifier: MIT */
+/* Random and mutated reports and files: no crash, no undefined behaviour, incomplete input is refused, outputs are
+ * unchanged on refusal. KNURL_FUZZ=N: N times as much. SPDX-License-Identifier: MIT */
 #include "support/close.h"
 
 #include "base/vec3.h"
@@ -26,7 +26,7 @@ static void fill(uint8_t *bytes, size_t size) {
     }
 }
 
-/* A report, believed or not, through everything that a report goes through. */
+/* Passes a report through all of its processing. */
 static uint32_t feed(const knurl_rawhid_arm *arm, const uint8_t *bytes, size_t size, size_t report_bytes) {
     const knurl_rawhid_in before = {{1, 2, 3, 4, 5, 6}, 7};
     knurl_rawhid_in in = before;

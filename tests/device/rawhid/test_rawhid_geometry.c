@@ -1,4 +1,4 @@
-/* Geometry files: what is in them, what is refused and in which words. SPDX-License-Identifier: MIT */
+/* Geometry files: their keys, and errors with their messages. SPDX-License-Identifier: MIT */
 #include "support/close.h"
 
 #include "base/number.h"
@@ -48,7 +48,7 @@ TEST(the_file_that_is_shipped_names_every_key) {
     }
 }
 
-/* What the makers publish of it. */
+/* The makers' published values. */
 TEST(the_defaults_are_woodenhaptics_v2015) {
     knurl_rawhid_geometry g;
     assert_int_equal(parse("", &g), KNURL_OK);
@@ -135,7 +135,7 @@ TEST(a_zero_byte_ends_nothing_and_is_refused) {
     CHECK_REFUSED(knurl_rawhid_geometry_parse("my.geometry", text, sizeof text - 1, &g), KNURL_ERROR_FORMAT, g);
 }
 
-/* Refused because of the key itself, or only for what it does together with others. */
+/* An error of the key itself, or only in combination with others. */
 static void check_range(const char *name, double least, double greatest, const char *unit) {
     const double ends[4] = {least, greatest, least - 0.001, greatest + 0.001};
     char word[64];

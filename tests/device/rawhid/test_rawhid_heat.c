@@ -13,7 +13,7 @@ static void press(uint64_t tick, const knurl_device_sample *sample, double force
     force[1] = FORCE;
 }
 
-/* Presses for `seconds`. Returns the motors' heat before and after, by the loop's own telling. */
+/* Presses for `seconds`. Returns the motors' heat before and after, as reported by the loop. */
 static void run(double seconds, double *before, double *after) {
     knurl_loop_desc desc;
     knurl_loop *loop = NULL;

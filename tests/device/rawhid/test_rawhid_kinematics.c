@@ -187,8 +187,8 @@ TEST(the_jacobian_is_how_differences_have_it) {
     }
 }
 
-/* What the currents push with, by virtual work over the simulation's kinematics, is the force that was asked for: up to
- * half a milliampere a motor, which is 0.4 mN m at a body and some millinewtons at the grip. */
+/* The currents' force, by virtual work over the simulation's kinematics, is the requested one: within half a
+ * milliampere per motor, which is 0.4 mN m at a body and some millinewtons at the grip. */
 TEST(the_currents_push_with_the_force_that_was_asked_for) {
     uint64_t seed = 5;
     for (int i = 0; i < 2000; i++) {

@@ -32,7 +32,7 @@ TEST(a_report_of_another_length_than_the_devices_is_refused) {
         }
     }
     knurl_rawhid_in in = untouched;
-    assert_int_equal(knurl_rawhid_parse(bytes, 13, 13, &in), 0); /* too short for seven words, whoever sends it */
+    assert_int_equal(knurl_rawhid_parse(bytes, 13, 13, &in), 0); /* too short for seven words, on any device */
 }
 
 TEST(a_report_whose_last_word_is_neither_0_nor_1_is_refused) {

@@ -48,7 +48,7 @@ static knurl_device *open_device(void) {
     return device;
 }
 
-/* Ticks as a loop does that always comes back from a halt: a machine under load brings some about. */
+/* Ticks like a loop that always recovers from halts, which load may cause. */
 static void hold(knurl_device *device, const double force[3], double seconds) {
     knurl_device_sample sample;
     const int64_t until = knurl_system_now_ns() + (int64_t)(seconds * 1e9);
@@ -146,8 +146,8 @@ TEST_WITH(a_descriptor_of_reports_that_are_too_short_is_refused_in_a_sentence, s
     check_refused(KNURL_ERROR_DEVICE_LOST, "reports are of 8 bytes in and 8 out; expected 14 to 64");
 }
 
-/* A child has one thread. What the emulation's threads had locked stays locked in it: the C library frees its own
- * locks, AddressSanitizer's run time does not, and the child waits for ever in malloc(). */
+/* A child has one thread. Locks of the emulation's threads stay locked in it: the C library resets its own locks,
+ * AddressSanitizer's run time does not, and the child would hang in malloc(). */
 static void skip_under_sanitizers(void) {
     if (SUITE_SANITIZED) {
         print_message("skipped: under a sanitizer a child of a program with threads cannot allocate\n");
@@ -155,7 +155,7 @@ static void skip_under_sanitizers(void) {
     }
 }
 
-/* In a process that is nobody's, for nothing is denied to root. */
+/* In a process of user nobody, because root may open everything. */
 TEST_WITH(permission_denied_names_the_rule_that_helps, set_up, tear_down) {
     skip_under_sanitizers();
     plug(0xffab, 64);
@@ -215,7 +215,7 @@ TEST_WITH(unplugged_it_is_lost_and_plugged_in_again_it_is_found, set_up, tear_do
     const int64_t pulled = knurl_system_now_ns();
     emulated_hid_unplug(&hid);
     assert_true(tick_device_until(device, KNURL_ERROR_DEVICE_LOST, none, 5.0, &sample));
-    assert_true(knurl_system_now_ns() - pulled < 500000000); /* told by the system, not by a second's silence */
+    assert_true(knurl_system_now_ns() - pulled < 500000000); /* reported by the system, not by a second's silence */
     assert_int_equal(knurl_device_reopen(device), KNURL_ERROR_DEVICE_LOST);
     plug(0xffab, 64);
     assert_int_equal(knurl_device_reopen(device), KNURL_OK);
@@ -234,7 +234,7 @@ static void push_for_ever(void) {
     _exit(3);
 }
 
-/* The guard writes to the node itself: through a second descriptor of it, for hidapi keeps its own to itself. */
+/* The guard writes to the node through a second descriptor, because hidapi does not expose its own. */
 TEST_WITH(a_guard_zeroes_the_currents_of_a_host_that_is_killed_or_stands_still, set_up, tear_down) {
     skip_under_sanitizers();
     for (int number = SIGKILL, k = 0; k < 2; number = SIGSTOP, k++) {
@@ -271,12 +271,12 @@ TEST_WITH(a_second_opening_in_this_program_is_refused_in_a_sentence, set_up, tea
     plug(0xffab, 64);
     knurl_device *device = open_device();
     check_refused(KNURL_ERROR_SYSTEM, "/dev/hidraw0 could not be opened: it is in use");
-    assert_true(tick_device_until(device, KNURL_OK, none, 5.0, &sample)); /* the first goes on */
+    assert_true(tick_device_until(device, KNURL_OK, none, 5.0, &sample)); /* the first one continues */
     knurl_device_close(device);
     knurl_device_close(open_device());
 }
 
-/* A second program. Returns its exit code: 0 where it was refused in a sentence. */
+/* A second program. Returns its exit code: 0 if it was refused with a message. */
 static int open_in_another_program(void) {
     int status = 0;
     const pid_t child = fork();
@@ -301,7 +301,7 @@ TEST_WITH(a_device_that_another_program_has_is_refused_in_a_sentence, set_up, te
     assert_true(tick_device_until(device, KNURL_OK, none, 5.0, &sample));
 }
 
-/* Nobody gives anything back then but the kernel. */
+/* Only the kernel cleans up then. */
 TEST_WITH(a_program_that_was_killed_has_no_device_any_more, set_up, tear_down) {
     skip_under_sanitizers();
     int pipes[2];

@@ -9,7 +9,7 @@ static void sleep_ms(int ms) {
     knurl_system_sleep_until_ns(knurl_system_now_ns() + (int64_t)ms * 1000000);
 }
 
-/* Writes `force` for so many ms; the latest reading. */
+/* Writes `force` for `ms`; the last reading. */
 static knurl_result run(knurl_device *device, int ms, const double force[3], knurl_device_sample *sample) {
     knurl_result result = KNURL_OK;
     for (int i = 0; i < ms; i++) {
@@ -111,7 +111,7 @@ TEST(its_button_and_opening_with_home_take_the_pose_for_home) {
     serial_double.close(device);
 }
 
-/* 1 where `line` makes a position. */
+/* 1 if `line` gives a position. */
 static int is_taken(const char *line) {
     knurl_device_sample sample;
     knurl_device *device = open_released();

@@ -53,7 +53,7 @@ static inline int stub_by_hand(void **state) {
     return 0;
 }
 
-/** A test's teardown: what was opened is closed, and nothing was called that HD does not allow. */
+/** A test's teardown: checks that all was closed, and that no call violated HD's rules. */
 static inline int stub_check(void **state) {
     (void)state;
     const double misuses = stub.ask(0, STUB_MISUSES);
@@ -75,10 +75,10 @@ static inline knurl_device *stub_open(const char *uri) {
     return device;
 }
 
-/** What a loop's callback does and sees. */
+/** A loop's callback: its force and position. */
 typedef struct stub_push {
-    double force[3]; /* what it writes */
-    double from[3];  /* m: the latest position */
+    double force[3]; /* written */
+    double from[3];  /* m: the last position */
     uint64_t ticks;
     uint32_t buttons;
 } stub_push;
@@ -118,7 +118,7 @@ static inline int32_t stub_loop_state(const knurl_loop *loop) {
     return stats.state;
 }
 
-/** Asks a loop that is turned by hand to stop, turns it to its end and destroys it. */
+/** Requests a manually turned loop to stop, turns it to its end and destroys it. */
 static inline void stub_end_loop(knurl_loop *loop) {
     knurl_loop_request_stop(loop);
     for (int turn = 0; turn < 100 && stub_loop_state(loop) == KNURL_LOOP_RUNNING; turn++) {
@@ -128,7 +128,7 @@ static inline void stub_end_loop(knurl_loop *loop) {
     knurl_loop_destroy(loop);
 }
 
-/** How many events of that code there are; takes all away. */
+/** Removes all events. Returns the number of those with that code. */
 static inline int stub_events(knurl_device *device, int32_t code, double *value) {
     knurl_device_event event;
     int count = 0;

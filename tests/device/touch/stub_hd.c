@@ -1,8 +1,7 @@
 /* A libHD of our own: a scheduler thread, three devices (each a plant in a hand), errors and faults on command, and a
- * count of every call that the API's reference does not allow. Where HD leaves something open it takes what is worst
- * for a driver: a force is held until the next frame's, even of a device that is disabled, a device that is unscheduled
- * may still be in its callback, errors go on one stack and the current device is one for all threads.
- * SPDX-License-Identifier: MIT */
+ * count of calls that violate the API's reference. Unspecified behaviour is the worst for a driver: a force is held
+ * until the next frame's, even of a device that is disabled, a device that is unscheduled may still be in its callback,
+ * errors go on one stack and the current device is one for all threads. SPDX-License-Identifier: MIT */
 #include "stub_state.h"
 
 stub_state hd = {
@@ -43,7 +42,7 @@ static simulated *current(void) {
     return used(hd.current == NONE ? HD_NO_DEVICE : (hd_device)hd.current);
 }
 
-/* As other people's drivers meet it: the device offers several styles, and a call calibrates by one of them. */
+/* As known from other drivers: the device offers several styles, and a call calibrates by one of them. */
 static hd_enum styles_of(const simulated *d) {
     const hd_enum set = (hd_enum)d->settings[STUB_STYLES];
     return set ? set : HD_STYLE_AUTO | HD_STYLE_INKWELL;
@@ -51,7 +50,7 @@ static hd_enum styles_of(const simulated *d) {
 
 /* --- devices --- */
 
-/* For programs: KNURL_STUB_HD=absent, or fail_at=500 (frames; whoever looks again finds it plugged in), or hang (in
+/* For programs: KNURL_STUB_HD=absent, or fail_at=500 (frames; it is plugged in again at the next attempt), or hang (in
  * hdInitDevice()), or garbage (absent, and as STUB_GARBAGE). */
 static void read_environment(simulated *d) {
     static int failed;
@@ -72,7 +71,7 @@ static void put_in_hand(simulated *d) {
                                        .hand_stiffness = 700.0,
                                        .hand_damping = 5.0,
                                        .resolution = 0.055e-3,
-                                       .max_force = 1e3, /* a driver that plays too much is to be seen */
+                                       .max_force = 1e3, /* so that a too large force is detected */
                                        .half_workspace = {0.080, 0.060, 0.035},
                                        .delay = 1};
     knurl_stroke_desc stroke;
@@ -206,7 +205,7 @@ static void drift(void) {
     }
 }
 
-/* What a frame brings by itself. */
+/* Spontaneous errors of a frame. */
 static void make_errors(simulated *d, int index) {
     if (d->settings[STUB_FAIL_AT] > 0.0) {
         d->settings[STUB_FAIL_AT]--;
@@ -367,8 +366,7 @@ void HD_CALL hdSetDoublev(hd_enum what, const double *values) {
     simulated *d = current();
     if (what != HD_FORCE) {
         misuse(0x0100);
-    } else if (d && !d->in_frame &&
-               dawdles) { /* another thread has made it the current one: no fault of the caller's */
+    } else if (d && !d->in_frame && dawdles) { /* another thread has made it the current one: not the caller's fault */
         push(0x0102, hd.current);
     } else if (d && !d->in_frame) {
         misuse(0x0102);

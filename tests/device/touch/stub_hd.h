@@ -1,5 +1,5 @@
-/* The stand-in for OpenHaptics: what tests do to it and ask it. Its simulation is the project's own plant in the
- * project's own hand, a plant a device. SPDX-License-Identifier: MIT */
+/* The stand-in for OpenHaptics: its interface for tests. It simulates the project's plant in the project's hand, one
+ * per device. SPDX-License-Identifier: MIT */
 #ifndef KNURL_TEST_STUB_HD_H
 #define KNURL_TEST_STUB_HD_H
 
@@ -8,19 +8,19 @@
 /** The devices that are plugged in: "Default Device" (null), "Left Device", "Right Device". */
 enum { STUB_DEFAULT, STUB_LEFT, STUB_RIGHT, STUB_DEVICES };
 
-/** What can be set; all are 0 at first. A device's, or where it says so the library's. */
+/** Settings, initially 0. Of a device, or of the library if noted. */
 enum {
     STUB_ABSENT,        /* 1: unplugged: cannot be initialised, and each frame fails */
-    STUB_FAIL_AT,       /* frames until STUB_ABSENT comes by itself; 0: never */
+    STUB_FAIL_AT,       /* frames until STUB_ABSENT is set; 0: never */
     STUB_ERROR,         /* an error code that each frame brings */
-    STUB_ERRORS,        /* how many a frame; 0 means 1; negative: as many as are asked for, for ever */
-    STUB_NAN,           /* 1: positions are no numbers */
+    STUB_ERRORS,        /* number per frame; 0 means 1; negative: without end */
+    STUB_NAN,           /* 1: positions are NaN */
     STUB_JUMP,          /* m added to x */
-    STUB_CALIBRATION,   /* 0: calibrated, else what hdCheckCalibration() tells */
+    STUB_CALIBRATION,   /* 0: calibrated, otherwise the result of hdCheckCalibration() */
     STUB_STYLES,        /* a mask of the styles of calibration that it offers; 0 means: automatic and inkwell */
     STUB_MENDS,         /* 1: hdUpdateCalibration() with one of these styles makes it calibrated */
     STUB_STROKE,        /* KNURL_STROKE_ of the hand at the next initialisation; 0: line */
-    STUB_RANDOM,        /* 1: what is asked for is random, as are errors */
+    STUB_RANDOM,        /* 1: results and errors are random */
     STUB_TELLS_NOTHING, /* 1: knows none of its properties */
     STUB_INIT_ERROR,    /* an error code that initialising brings */
     STUB_REFUSED_RATE,  /* library: Hz that the scheduler refuses */
@@ -31,17 +31,17 @@ enum {
                            it */
     STUB_DAWDLES,       /* library: 1: threads but the scheduler's take their time after hdMakeCurrentDevice(), and the
                            scheduler's before it takes a force */
-    STUB_BY_HAND,       /* library: 1: turns come from stub_turn() alone */
+    STUB_BY_HAND,       /* library: 1: turns only by stub_turn() */
     STUB_SETTINGS
 };
 
-/** What can be asked. */
+/** Queries. */
 enum {
     STUB_INITIALISED,  /* 1: in use */
     STUB_UPDATES,      /* calls of hdUpdateCalibration() */
-    STUB_LAST_STYLE,   /* what that was called with */
+    STUB_LAST_STYLE,   /* its argument */
     STUB_FRAMES,       /* ended */
-    STUB_TOLD,         /* N: length of the force that the motors are told */
+    STUB_TOLD,         /* N: length of the commanded force */
     STUB_TOLD_MOST,    /* N: the greatest so far */
     STUB_GAPS,         /* frames without force after one that had some */
     STUB_TOLD_BAD,     /* forces that were not finite */
@@ -55,7 +55,7 @@ enum {
     STUB_QUESTIONS
 };
 
-/** What the default device's motors are told, for whoever outlives the process. */
+/** The default device's commanded force, for a process that survives this one. */
 typedef struct stub_told {
     double newton;
     int64_t limp_since; /* as stub_limp_function */
@@ -64,11 +64,12 @@ typedef struct stub_told {
 /** The library's functions for tests; STUB_FUNCTIONS(X): type, name. */
 typedef void (*stub_set_function)(int device, int setting, double value);
 typedef double (*stub_ask_function)(int device, int question);
-typedef int64_t (*stub_limp_function)(int device); /* ns on the monotonic clock since when no force; 0: there is one */
-typedef void (*stub_mirror_function)(stub_told *to); /* kept: what is told is written there as well */
+typedef int64_t (*stub_limp_function)(
+    int device); /* ns on the monotonic clock: start of zero force; 0: there is a force */
+typedef void (*stub_mirror_function)(stub_told *to); /* kept: commanded forces are written there as well */
 typedef void (*stub_turn_function)(uint64_t turns);
-/** Whose clock, sleeps and threads it uses (copied): the test program's, which may make time itself; the default: its
- * own copy of the system's. */
+/** The clock, sleeps and threads that it uses (copied): the test program's, which may simulate time; the default: the
+ * system's. */
 typedef struct stub_time {
     int64_t (*now_ns)(void);
     void (*sleep_until_ns)(int64_t deadline_ns);

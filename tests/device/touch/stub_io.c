@@ -1,4 +1,4 @@
-/* A library that is there when its user is linked, and nowhere when that is loaded. SPDX-License-Identifier: MIT */
+/* A library that exists when its user is linked, but not when that is loaded. SPDX-License-Identifier: MIT */
 __attribute__((visibility("default"))) int stub_io(void);
 
 int stub_io(void) {

@@ -1,10 +1,10 @@
-/* The stub library's scheduler: a thread that calls what is scheduled, or turns by hand. SPDX-License-Identifier: MIT
+/* The stub library's scheduler: a thread that calls scheduled callbacks, or manual turns. SPDX-License-Identifier: MIT
  */
 #include "stub_state.h"
 
 #define STACK_BYTES ((size_t)256 * 1024)
 
-/* Every callback once, then time goes on. */
+/* Calls every callback once, then advances time. */
 static void turn(void) {
     lock();
     hd.errors_taken = 0;
@@ -131,7 +131,7 @@ static void wait_a_little(void) {
     lock();
 }
 
-/* Turns by hand come one after the other anyway. */
+/* Manual turns are sequential anyway. */
 void HD_CALL hdScheduleSynchronous(hd_callback callback, void *user, unsigned short priority) {
     (void)priority;
     lock();
@@ -177,7 +177,7 @@ static void turn_in_thread(void *turns) {
     }
 }
 
-/* In a thread of its own, as a scheduler's; returns after it. */
+/* Runs in another thread, like a scheduler's, and waits for it. */
 void stub_turn(uint64_t turns) {
     knurl_thread *thread = hd.time.start_thread(turn_in_thread, &turns, STACK_BYTES);
     if (thread) {

@@ -1,4 +1,4 @@
-/* What the stub library is made of: its state, one for all threads, and what is done under its lock.
+/* Internals of the stub library: its state, shared by all threads, and functions under its lock.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_TEST_STUB_STATE_H
 #define KNURL_TEST_STUB_STATE_H
@@ -40,7 +40,7 @@ typedef struct stub_state {
     double settings[STUB_SETTINGS];
     double answers[STUB_QUESTIONS];
     int current;
-    int has_failed; /* the latest hdInitDevice() */
+    int has_failed; /* the last hdInitDevice() */
     hd_error errors[ERRORS];
     int error_count;
     int64_t errors_taken;
@@ -103,7 +103,7 @@ static inline void misuse(uint32_t code) {
     push(code, hd.current);
 }
 
-/* Time goes on for a device, under the lock. */
+/* Advances a device's time, under the lock. */
 void stub_move(simulated *d, double dt);
 
 #endif

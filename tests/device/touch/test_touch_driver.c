@@ -29,7 +29,7 @@ static double told(void) {
     return stub.ask(STUB_DEFAULT, STUB_TOLD);
 }
 
-/* --- what the device is --- */
+/* --- information --- */
 
 TEST_WITH(what_hd_tells_of_the_device_comes_in_si, stub_by_hand, stub_check) {
     SCOPED_DEVICE *device = stub_open("touch");
@@ -217,7 +217,7 @@ TEST_WITH(a_tick_is_never_called_again_after_it_returned_0, stub_by_hand, stub_c
     stub.turn(50);
     assert_int_equal(t.calls, 5);
     assert_true(stub.ask(0, STUB_CALLBACKS) == 0.0);
-    assert_true(told() == 0.0); /* whatever its last call wrote */
+    assert_true(told() == 0.0); /* even though its last call wrote a force */
     t.last = 8;
     assert_int_equal(t.device->driver->serve(t.device, tick, &t), KNURL_OK); /* another loop */
     stub.turn(50);

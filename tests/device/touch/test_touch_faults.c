@@ -1,4 +1,4 @@
-/* What goes wrong with a Touch: losses, refusals, calibration, nonsense, a scheduler that stands still.
+/* Faults of a Touch: losses, refusals, calibration, invalid data, a stalled scheduler.
  * SPDX-License-Identifier: MIT */
 #include "device/touch/stub.h"
 #include "device/touch/touch_double.h"
@@ -32,11 +32,11 @@ static double told(void) {
 
 /* --- losses --- */
 
-/* Counts its calls; goes on as a loop does that waits for its device. */
+/* Counts its calls; continues like a loop that waits for its device. */
 static uint32_t count_calls(void *argument) {
     knurl_device **device = argument;
     knurl_device_sample sample;
-    (*device)->max_speed += 1.0; /* a counter that is at hand */
+    (*device)->max_speed += 1.0; /* abused as a counter */
     (void)knurl_device_read(*device, &sample);
     return 1;
 }
@@ -49,7 +49,7 @@ TEST_WITH(a_device_that_is_lost_is_told_of_once_and_not_served_any_more, stub_by
     stub.turn(10);
     stub.set(STUB_DEFAULT, STUB_ABSENT, 1.0);
     stub.turn(50);
-    assert_true(device->max_speed == 112.0); /* the frame that failed, and the call that tells */
+    assert_true(device->max_speed == 112.0); /* the frame that failed, and the call that reports it */
     assert_int_equal(stub_events(device, KNURL_FAULT_LOST, NULL), 1);
     assert_true(stub.ask(0, STUB_CALLBACKS) == 0.0);
     assert_int_equal(knurl_device_reopen(device), KNURL_ERROR_DEVICE_LOST);
@@ -119,13 +119,13 @@ TEST_WITH(a_scheduler_that_stops_calling_is_a_loss_and_nobody_waits_for_ever, st
     knurl_system_sleep_until_ns(knurl_system_now_ns() + 30000000);
     stub.set(0, STUB_STALL, 1.0);
     const int64_t from = knurl_system_now_ns();
-    knurl_loop_stop(b.loop); /* while it stands */
+    knurl_loop_stop(b.loop); /* while it is stalled */
     assert_true(knurl_system_now_ns() - from < INT64_C(10000000000));
     assert_int_equal(stub_loop_state(b.loop), KNURL_LOOP_LOST);
     knurl_loop_destroy(b.loop);
     assert_int_equal(stub_events(b.device, KNURL_FAULT_LOST, NULL), 1);
     const uint64_t ticks = b.push.ticks;
-    stub.set(0, STUB_STALL, 0.0); /* and goes on when the loop is no more */
+    stub.set(0, STUB_STALL, 0.0); /* it continues after the loop is destroyed */
     knurl_system_sleep_until_ns(knurl_system_now_ns() + 30000000);
     assert_int_equal(b.push.ticks, ticks);
     knurl_device_close(b.device);
@@ -284,7 +284,7 @@ TEST_WITH(without_a_calibration_there_is_no_force_until_the_stylus_was_in_the_in
     assert_int_equal(stub_events(b.device, KNURL_FAULT_UNCALIBRATED, NULL), 1);
     assert_true(stub.ask(STUB_DEFAULT, STUB_TOLD_MOST) == 0.0);
     assert_int_equal(b.push.ticks, 0);
-    assert_true(stub.ask(STUB_DEFAULT, STUB_UPDATES) == 0.0); /* a person has to do something first */
+    assert_true(stub.ask(STUB_DEFAULT, STUB_UPDATES) == 0.0); /* the user must act first */
     stub.set(STUB_DEFAULT, STUB_MENDS, 1.0);
     stub.set(STUB_DEFAULT, STUB_CALIBRATION, 0x5001); /* it is in */
     stub.turn(150);

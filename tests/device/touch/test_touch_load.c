@@ -1,4 +1,4 @@
-/* Finding the HD library: what is told when it cannot be had, and how long it stays. SPDX-License-Identifier: MIT */
+/* Finding the HD library: the error if it is missing, and its lifetime. SPDX-License-Identifier: MIT */
 #include "device/touch/stub.h"
 
 #include <dlfcn.h>
@@ -19,7 +19,7 @@ static void check_refused_uri(const char *uri, knurl_result code, const char *co
     for (size_t i = 0; i < count; i++) {
         check_message(words[i]);
     }
-    assert_true(strlen(knurl_error_message()) < 1000); /* nothing of it is cut off */
+    assert_true(strlen(knurl_error_message()) < 1000); /* not truncated */
 }
 
 static void write_bytes(const char *path, const void *bytes, size_t size) {

@@ -26,7 +26,7 @@ TEST_WITH(each_device_gets_its_own_force_from_one_scheduler, stub_by_hand, stub_
     start(&left, "touch:Left Device", 1.0);
     start(&right, "touch:Right Device", 2.0);
     stub.turn(50);
-    assert_true(stub.ask(0, STUB_STARTS) == 2.0); /* it stands still while the second one is opened */
+    assert_true(stub.ask(0, STUB_STARTS) == 2.0); /* it is stopped while the second one is opened */
     assert_int_equal(left.push.ticks, 50);
     assert_int_equal(right.push.ticks, 50);
     CHECK_CLOSE(stub.ask(STUB_LEFT, STUB_TOLD), 1.0, 1e-12);
@@ -70,7 +70,7 @@ TEST_WITH(one_that_is_lost_leaves_the_other_as_it_is, stub_by_hand, stub_check) 
     end(&right);
 }
 
-/* More errors than one look takes away: the rest turns up in the other's frame. */
+/* More errors than one check removes: the rest appears in the other's frame. */
 TEST_WITH(an_error_is_blamed_on_the_device_that_it_is_about, stub_by_hand, stub_check) {
     hand left;
     hand right;
@@ -107,7 +107,7 @@ TEST_WITH(two_loops_run_at_one_rate, stub_by_hand, stub_check) {
     check_message("one scheduler");
     assert_true(stub.ask(0, STUB_RATE) == 1000.0);
     end(&left);
-    assert_int_equal(knurl_device_start(right, 500.0), KNURL_OK); /* nobody else runs any more */
+    assert_int_equal(knurl_device_start(right, 500.0), KNURL_OK); /* no other device runs any more */
 }
 
 TEST_WITH(a_current_device_that_another_thread_changes_mixes_nothing_up, stub_by_hand, stub_check) {
@@ -130,12 +130,12 @@ TEST_WITH(a_current_device_that_another_thread_changes_mixes_nothing_up, stub_by
 TEST_WITH(one_comes_and_goes_while_the_other_runs, stub_by_hand, stub_check) {
     hand left;
     stub.set(0, STUB_BY_HAND, 0.0);
-    stub.set(STUB_RIGHT, STUB_JUMP, 0.05); /* so that whose position it is can be told */
+    stub.set(STUB_RIGHT, STUB_JUMP, 0.05); /* to tell their positions apart */
     start(&left, "touch:Left Device", 1.0);
     stub.set(0, STUB_DAWDLES, 1.0);
     for (int turn = 0; turn < 5; turn++) {
         hand right;
-        knurl_system_sleep_until_ns(knurl_system_now_ns() + 100000); /* opens while the other's force is on its way */
+        knurl_system_sleep_until_ns(knurl_system_now_ns() + 100000); /* opens while the other's force is in transit */
         start(&right, "touch:Right Device", 0.5);
         for (int waits = 0; waits < 5000 && __atomic_load_n(&right.push.ticks, __ATOMIC_RELAXED) < 20; waits++) {
             knurl_system_sleep_until_ns(knurl_system_now_ns() + 1000000);
@@ -149,7 +149,7 @@ TEST_WITH(one_comes_and_goes_while_the_other_runs, stub_by_hand, stub_check) {
         assert_true(stub.ask(STUB_RIGHT, STUB_TOLD) == 0.0);
         assert_int_equal(stub_loop_state(left.loop), KNURL_LOOP_RUNNING);
     }
-    assert_true(stub.ask(STUB_LEFT, STUB_GAPS) == 5.0); /* while the other is opened it has none, and ramps */
+    assert_true(stub.ask(STUB_LEFT, STUB_GAPS) == 5.0); /* zero while the other is opened, then a ramp */
     knurl_loop_destroy(left.loop);
     int32_t codes[KNURL_FAULT_RECONNECTED + 1] = {0};
     for (knurl_device_event event; knurl_device_next_event(left.device, &event);) {

@@ -1,5 +1,5 @@
-/* The Touch's double. HD speaks in calls and no wire is to be seen, so what can be cut, mixed up or delayed there
- * cannot be done here. SPDX-License-Identifier: MIT */
+/* The Touch's double. HD is a call interface without a visible wire, so messages cannot be cut, mixed up or delayed
+ * here. SPDX-License-Identifier: MIT */
 #include "device/touch/touch_double.h"
 
 #include "base/system.h"
