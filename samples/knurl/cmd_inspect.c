@@ -46,6 +46,21 @@ static void print_stretch(json_writer *json, const char *key, const double stret
     json_close(json, '}');
 }
 
+static void print_angles(json_writer *json, const char *key, const double angles[2]) {
+    json_open(json, key, '{');
+    json_number(json, "mean", angles[0]);
+    json_number(json, "max", angles[1]);
+    json_close(json, '}');
+}
+
+static void print_smoothness(json_writer *json, const knurl_surface_info *info) {
+    static const char *const names[] = {"auto", "off", "on"};
+    json_string(json, "smooth", names[info->smooth]);
+    json_number(json, "curved_triangles", info->curved_triangles);
+    json_number(json, "bad_normals", info->bad_normals);
+    json_number(json, "bulge", info->bulge);
+}
+
 static void print_surface(json_writer *json, const knurl_surface_info *info, const knurl_material_desc *material,
                           int reachable) {
     json_open(json, NULL, '{');
@@ -61,9 +76,7 @@ static void print_surface(json_writer *json, const knurl_surface_info *info, con
     json_number(json, "model_error", info->model_error);
     json_number(json, "seam", info->seam);
     json_number(json, "touching_pairs", (double)info->touching_pairs);
-    json_number(json, "curved_triangles", info->curved_triangles);
-    json_number(json, "bad_normals", info->bad_normals);
-    json_number(json, "bulge", info->bulge);
+    print_smoothness(json, info);
     json_flag(json, "in_reach", reachable);
     json_flag(json, "double_sided", info->double_sided != 0);
     json_string(json, "coordinates", info->coordinates);
@@ -72,6 +85,10 @@ static void print_surface(json_writer *json, const knurl_surface_info *info, con
     print_material(json, material);
     print_stretch(json, "stretch", info->stretch);
     print_stretch(json, "stretch_y", info->stretch_y);
+    json_number(json, "edges", info->edges);
+    json_number(json, "hard_edges", info->hard_edges);
+    print_angles(json, "facet_angle", info->facet_angle);
+    print_angles(json, "felt_angle", info->felt_angle);
     json_close(json, '}');
 }
 

@@ -52,9 +52,12 @@ static const help_command commands[] = {
       EVEN,
       {"--check", "", "exit with 3 if a surface exceeds a Touch's limits, is stretched, or is out of its reach"}},
      "JSON: surfaces [{name, shape, model, triangles, dropped_triangles, reversed_twins, turned_triangles, bytes, why,\n"
-     "model_error, seam, touching_pairs, curved_triangles, bad_normals, bulge, in_reach, double_sided, coordinates, uneven,\n"
-     "projection_seams, material, stretch,\n"
-     "stretch_y}], skipped, even {lowest_gain, from_hz, to_hz}, bytes, hint.",
+     "model_error, seam, touching_pairs, smooth, curved_triangles, bad_normals, bulge, in_reach, double_sided,\n"
+     "coordinates, uneven, projection_seams, material, stretch, stretch_y, edges, hard_edges, facet_angle {mean, max},\n"
+     "felt_angle {mean, max}}], skipped,\n"
+     "even {lowest_gain, from_hz, to_hz}, bytes, hint. Angles are in rad, between the triangles at an edge, and\n"
+     "between what is felt there; hard_edges are felt as edges. Triangles that are neither curved nor of bad_normals are\n"
+     "flat: within 0.1 degrees and 1 um of the smooth surface, or of a mesh that is not smooth.",
      NULL},
     {"tag",
      "FILE",

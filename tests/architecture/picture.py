@@ -57,7 +57,7 @@ BOXES = {
     "mesh_contact": (654, 644, 160, "mesh_contact", "the proxy on a mesh", ["contact/mesh_contact"]),
     "plane": (270, 702, 160, "plane", "z = 0 in an outline", ["contact/plane", "contact/plane_hold"]),
     "mesh_frame": (462, 702, 160, "mesh_frame", "x, y, coordinates", ["contact/mesh_frame", "contact/projection"]),
-    "mesh_feel": (462, 760, 160, "mesh_feel", "curved patches", ["contact/mesh_feel", "contact/patch", "contact/mesh_normals"]),
+    "mesh_feel": (462, 760, 160, "mesh_feel", "curved patches", ["contact/mesh_feel", "contact/patch", "contact/mesh_normals", "contact/mesh_crease", "contact/mesh_facets"]),
     "mesh_walk": (654, 702, 160, "mesh_walk", "downhill to the nearest", ["contact/mesh_walk"]),
     "mesh_query": (654, 760, 160, "mesh_query", "what is nearest, crossed", ["contact/mesh_query", "contact/mesh_cast", "contact/mesh_search"]),
     "contact": (254, 818, 128, "contact", "question and answer", ["contact/contact", "contact/visits"]),

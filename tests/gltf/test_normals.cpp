@@ -50,6 +50,18 @@ TEST(normals_are_felt_unless_a_tag_says_not_to) {
                      {"knurl.smooth", "expected true or false"});
 }
 
+/// glTF 2.0, 3.7.2.1: "When normals are not specified, client implementations MUST calculate flat normals".
+TEST(without_normals_it_is_flat_as_it_looks_unless_a_tag_says_smooth) {
+    const auto plain = [](const char *more) {
+        File file = arch(more);
+        file.meshes.replace(file.meshes.find("NORMAL"), 6, "_PLAIN");
+        return curved(file);
+    };
+    assert_int_equal(plain(""), 0);
+    assert_int_equal(plain(R"(,"smooth":false)"), 0);
+    assert_int_equal(plain(R"(,"smooth":true)"), 16);
+}
+
 TEST(a_node_overrides_smoothness_of_a_shared_mesh) {
     File file = arch();
     file.nodes = R"({"mesh":0},{"mesh":0,"extras":{"knurl_smooth":false}},{"mesh":0,"translation":[1,0,0]})";

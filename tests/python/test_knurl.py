@@ -56,15 +56,24 @@ class Module(unittest.TestCase):
         corners = np.array([[a, b, np.sqrt(0.05**2 - a**2)] for a in x for b in (-0.02, 0.02)])
         normals = corners * [1, 0, 1] / 0.05
         top = {}
-        for name, given in (("flat", None), ("smooth", normals)):
+        for name, given, smooth in (("flat", None, None), ("smooth", normals, None), ("off", normals, False)):
             scene = knurl.Scene()
-            scene.add_mesh(corners, [[0, 2, 3], [0, 3, 1]], normals=given, axis=(0, 1, 0),
+            scene.add_mesh(corners, [[0, 2, 3], [0, 3, 1]], normals=given, smooth=smooth, axis=(0, 1, 0),
                            material=knurl.Material(stiffness=400.0))
             scene.configure_hip(**STRAIGHT)
             scene.commit()
             top[name] = scene.tick(pressed(0.002) + [0, 0, 0.05])["force"][-1][2]
         self.assertAlmostEqual(top["smooth"], 0.4 * 2.0, delta=0.016) # 2 mm below the cylinder; the patch is 2 % off
+        self.assertEqual(top["off"], top["flat"])
         self.assertAlmostEqual(top["flat"], 0.4 * (2.0 - 1e3 * (0.05 - np.sqrt(0.05**2 - 0.01**2))), places=3)
+
+    def test_normals_are_computed_if_asked_for(self):
+        angles = np.arange(9) * 0.1
+        corners = np.array([[0.05 * np.cos(a), 0.05 * np.sin(a), z] for a in angles for z in (-0.02, 0.02)])
+        quads = [[i, i + 2, i + 3, i, i + 3, i + 1] for i in range(0, 16, 2)]
+        surface = knurl.Scene().add_mesh(corners, np.reshape(quads, (-1, 3)), smooth=True, axis=(0, 0, 1))
+        self.assertEqual((surface.info["curved_triangles"], surface.info["hard_edges"]), (16, 0))
+        np.testing.assert_allclose(surface.info["facet_angle"][1], 0.1, rtol=1e-4)
 
     def test_a_batch_is_the_same_as_its_rows_one_by_one(self):
         results = []

@@ -113,9 +113,13 @@ static inline void smooth_free(smooth_mesh *m) {
     free(m->normals);
 }
 
-static inline surface_parts smooth_surface(const smooth_mesh *m, int is_smooth) {
+/** How a form is felt: as its triangles, by its normals, or by normals that the library computes. */
+enum { SMOOTH_FLAT, SMOOTH_GIVEN, SMOOTH_COMPUTED };
+
+static inline surface_parts smooth_surface(const smooth_mesh *m, int how) {
     surface_parts parts = surface_mesh(&m->s);
-    parts.mesh.normals = is_smooth ? m->normals : NULL;
+    parts.mesh.normals = how == SMOOTH_GIVEN ? m->normals : NULL;
+    parts.desc.smooth = how == SMOOTH_COMPUTED ? KNURL_SMOOTH_ON : KNURL_SMOOTH_AUTO;
     if (!m->s.uvs) {
         parts.desc.axis[0] = 0.6;
         parts.desc.axis[1] = 0.64;

@@ -186,7 +186,12 @@ TEST(inspect_tells_each_surface_in_one_line_of_json) {
                                        "turned_triangles",
                                        "coordinates",
                                        "uneven",
-                                       "projection_seams"};
+                                       "projection_seams",
+                                       "smooth",
+                                       "edges",
+                                       "hard_edges",
+                                       "facet_angle",
+                                       "felt_angle"};
     SCOPED_PROCESS p = RUN_TOOL("inspect", write_plate("plate.gltf", TAG));
     check_done(&p);
     assert_int_equal(p.err[0], '\0');

@@ -195,10 +195,11 @@ class Scene(Owner):
 
     def add_mesh(self, positions: ArrayLike, indices: Optional[ArrayLike] = None, uvs: Optional[ArrayLike] = None,
                  tangents: Optional[ArrayLike] = None, normals: Optional[ArrayLike] = None,
-                 material: Optional[Material] = None, **pose: Any) -> Surface:
+                 material: Optional[Material] = None, smooth: Optional[bool] = None, **pose: Any) -> Surface:
         """A triangle mesh: positions (n, 3), indices (m, 3) of them, uvs (n, 2), tangents (n, 4). Arrays are copied.
-        normals (n, 3): makes it feel as smooth as they describe. pose: as for add_plane(), and box: ridges follow
-        positions instead of uvs."""
+        normals (n, 3): makes it feel as smooth as they describe. smooth: False: felt as its triangles; True: smooth, with
+        computed normals if there are none; None: smooth if there are normals. pose: as for add_plane(), and box:
+        ridges follow positions instead of uvs."""
         mesh = described("knurl_mesh_desc")
         arrays = [_rows(positions, 3, "f4", "positions")]
         mesh.positions = ffi.from_buffer("float[]", arrays[0])
@@ -213,9 +214,10 @@ class Scene(Owner):
             arrays.append(_rows(indices, 3, "u4", "indices"))
             mesh.indices = ffi.from_buffer("uint32_t[]", arrays[-1])
             mesh.index_count = arrays[-1].size
-        return self._add("mesh", mesh, material, **pose)
+        how = lib.KNURL_SMOOTH_AUTO if smooth is None else lib.KNURL_SMOOTH_ON if smooth else lib.KNURL_SMOOTH_OFF
+        return self._add("mesh", mesh, material, how, **pose)
 
-    def _add(self, kind: str, shape: Any, material: Optional[Material], name: str = "", position: ArrayLike = (0, 0, 0),
+    def _add(self, kind: str, shape: Any, material: Optional[Material], smooth: int = 0, name: str = "", position: ArrayLike = (0, 0, 0),
              rotation: ArrayLike = (0, 0, 0, 1), normal: ArrayLike = (0, 0, 0), axis: ArrayLike = (0, 0, 0),
              double_sided: bool = False, box: bool = False) -> Surface:
         desc = described("knurl_surface_desc")
@@ -226,6 +228,7 @@ class Scene(Owner):
         desc.rotation = _tuple_of(rotation, 4, "rotation")
         desc.normal = _tuple_of(normal, 3, "normal")
         desc.axis = _tuple_of(axis, 3, "axis")
+        desc.smooth = smooth
         desc.coordinates = lib.KNURL_COORDINATES_BOX if box else lib.KNURL_COORDINATES_AUTO
         surface = ffi.new("knurl_surface_id *")
         check(lib.knurl_scene_add_surface(self.handle, desc, surface))

@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "463987e9109118fd"
+#define KNURL_UNITY_INTERFACE "d496a5124f1f8430"
 
 /** Everything mirrored, where C# expects it: STRUCT(type, bytes), FIELD(type, field, its name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
@@ -105,7 +105,7 @@
     FIELD(knurl_surface_desc, axis, "axis", 120, 24) \
     FIELD(knurl_surface_desc, shape_of, "shape_of", 144, 8) \
     FIELD(knurl_surface_desc, coordinates, "coordinates", 152, 4) \
-    FIELD(knurl_surface_desc, reserved, "reserved", 156, 4) \
+    FIELD(knurl_surface_desc, smooth, "smooth", 156, 4) \
     STRUCT(knurl_scene_desc, 24) \
     FIELD(knurl_scene_desc, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_scene_desc, max_surfaces, "max_surfaces", 4, 4) \
@@ -313,7 +313,7 @@
     FIELD(knurl_loop_stats, absences, "absences", 104, 8) \
     FIELD(knurl_loop_stats, absent, "absent", 112, 4) \
     FIELD(knurl_loop_stats, paused, "paused", 116, 4) \
-    STRUCT(knurl_surface_info, 352) \
+    STRUCT(knurl_surface_info, 392) \
     FIELD(knurl_surface_info, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_surface_info, triangle_count, "triangle_count", 4, 4) \
     FIELD(knurl_surface_info, dropped_triangles, "dropped_triangles", 8, 4) \
@@ -343,7 +343,11 @@
     FIELD(knurl_surface_info, coordinates, "coordinates", 328, 8) \
     FIELD(knurl_surface_info, uneven, "uneven", 336, 8) \
     FIELD(knurl_surface_info, projection_seams, "projection_seams", 344, 4) \
-    FIELD(knurl_surface_info, reserved, "reserved", 348, 4) \
+    FIELD(knurl_surface_info, smooth, "smooth", 348, 4) \
+    FIELD(knurl_surface_info, edges, "edges", 352, 4) \
+    FIELD(knurl_surface_info, hard_edges, "hard_edges", 356, 4) \
+    FIELD(knurl_surface_info, facet_angle, "facet_angle", 360, 16) \
+    FIELD(knurl_surface_info, felt_angle, "felt_angle", 376, 16) \
     STRUCT(knurl_surface_point, 72) \
     FIELD(knurl_surface_point, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_surface_point, reserved, "reserved", 4, 4) \

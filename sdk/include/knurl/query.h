@@ -61,15 +61,20 @@ typedef struct knurl_surface_info {
                                     seams, intersecting parts. Ticks near them take longer; 0: a clean mesh. A lower
                                     bound: counting ends after 96 tests, or 4 pairs, for each triangle */
     uint32_t curved_triangles; /**< felt curved, by the mesh's normals; 0: the mesh is felt as its triangles */
-    uint32_t bad_normals;    /**< triangles felt flat because their normals cannot be right (knurl_mesh_desc.normals) */
-    double bulge;            /**< m: a curved surface is felt at most this far from its triangles. Contacts' proxies,
-                                knurl_scene_find_closest() and knurl_scene_cast_ray() are on the triangles */
-    const char *coordinates; /**< where they come from: "plane", "axis", "uvs", "tangents" (a direction, but no
-                                  position), "box", or "box, for its uvs have no area"; static */
-    double uneven;           /**< share of the area, 0 to 1, where uvs have no area, or make ridges more than
-                                  KNURL_STRETCH_MAX times finer or coarser than the material's */
+    uint32_t bad_normals;      /**< triangles felt flat because their normals cannot be right (knurl_mesh_desc.normals);
+                                  computed normals: because it is too sharp at a corner, such as a cone's tip */
+    double bulge;              /**< m: a curved surface is felt at most this far from its triangles. Contacts' proxies,
+                                  knurl_scene_find_closest() and knurl_scene_cast_ray() are on the triangles */
+    const char *coordinates;   /**< where they come from: "plane", "axis", "uvs", "tangents" (a direction, but no
+                                    position), "box", or "box, for its uvs have no area"; static */
+    double uneven;             /**< share of the area, 0 to 1, where uvs have no area, or make ridges more than
+                                    KNURL_STRETCH_MAX times finer or coarser than the material's */
     uint32_t projection_seams; /**< edges between triangles whose coordinates are projected along different axes */
-    uint32_t reserved;         /**< 0 */
+    int32_t smooth;            /**< KNURL_SMOOTH_, as given */
+    uint32_t edges;            /**< between two triangles of a mesh; 0 for a plane */
+    uint32_t hard_edges;       /**< of these, felt as edges: the felt surface's normal turns by over 0.25 degrees */
+    double facet_angle[2];     /**< rad: angle between the triangles at an edge: mean by the edges' lengths, largest */
+    double felt_angle[2];      /**< rad: the same of the surface as it is felt; 0 where it is smooth */
 } knurl_surface_info;
 
 /** Zeroes it and sets struct_size; `size` is the caller's sizeof. [any thread] */

@@ -67,7 +67,7 @@ typedef struct knurl_surface_desc {
     knurl_surface_id shape_of; /**< a surface of this scene to share its shape and axis, instead of giving a plane or
                                   mesh. The shape is stored once, until its last user is removed; 0: not shared */
     int32_t coordinates;       /**< KNURL_COORDINATES_, of a mesh; default AUTO. With BOX the axis must be 0, 0, 0 */
-    uint32_t reserved;         /**< 0 */
+    int32_t smooth;            /**< KNURL_SMOOTH_, of a mesh; default AUTO */
 } knurl_surface_desc;
 
 /** Fills in defaults; `size` is the caller's sizeof. [any thread] */

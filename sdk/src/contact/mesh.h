@@ -23,6 +23,13 @@ typedef struct knurl_vertex_corners {
     uint32_t count;
 } knurl_vertex_corners;
 
+/* The edges between triangles. Angles: rad, the mean by length and the largest. */
+typedef struct knurl_mesh_facets {
+    uint32_t edges, hard_edges; /* all; those over which the felt surface's normal turns */
+    double facet_angle[2];      /* between the triangles */
+    double felt_angle[2];       /* between the felt surfaces */
+} knurl_mesh_facets;
+
 /* Stored in single precision (half the bytes; 4e-9 m on a 0.1 m object), computed in double. Bytes per triangle of a
  * closed mesh or a sheet: triangles 12, opposite 12, positions 6, nodes 12. `opposite` replaces stored fans (14 with
  * their starts) and welds: swinging from edge to edge round a vertex reaches all triangles at its position, whichever
@@ -42,15 +49,16 @@ typedef struct knurl_mesh {
     uint32_t triangle_count;
     uint32_t node_count;
     uint32_t non_manifold_count;
-    uint32_t dropped;          /* triangles dropped because they have no area or are duplicates */
-    uint32_t reversed_twins;   /* triangles dropped because another has the same corners with opposite winding */
-    uint32_t turned;           /* triangles turned over to face like the rest of their connected component */
-    uint32_t mixed;            /* triangles that still face against the rest of their component */
-    int32_t double_sided;      /* 1: more than a few have reversed twins, or no front was found */
-    double seam;               /* m: edges side by side within this distance touch */
-    uint32_t touching;         /* pairs of triangles that touch, except along a shared edge */
-    uint32_t curved;           /* triangles that are felt curved */
-    uint32_t bad_normals;      /* triangles that are felt flat because their normals do not describe a surface */
+    uint32_t dropped;        /* triangles dropped because they have no area or are duplicates */
+    uint32_t reversed_twins; /* triangles dropped because another has the same corners with opposite winding */
+    uint32_t turned;         /* triangles turned over to face like the rest of their connected component */
+    uint32_t mixed;          /* triangles that still face against the rest of their component */
+    int32_t double_sided;    /* 1: more than a few have reversed twins, or no front was found */
+    double seam;             /* m: edges side by side within this distance touch */
+    uint32_t touching;       /* pairs of triangles that touch, except along a shared edge */
+    uint32_t curved;         /* triangles that are felt curved */
+    uint32_t bad_normals;    /* triangles that are felt flat because their normals do not describe a surface */
+    int32_t has_computed_normals;
     double bulge;              /* m: greatest distance of the felt surface from the triangles */
     int32_t is_projected;      /* 1: coordinates are positions (projection.h), without uvs and tangents */
     uint32_t projection_seams; /* edges between triangles with different projections */
@@ -60,7 +68,8 @@ typedef struct knurl_mesh {
     double uneven;             /* share of the area in which ridges are more than an octave off, or without uvs */
     double stretch[2][3]; /* min, mean, max over area of su / |dP/du|, and of sv / |dP/dv|; with an axis, of the length
                              of its tangential part, and 1; 1 without both */
-    uint32_t other_users; /* atomic: shapes that share it, not counting the first */
+    knurl_mesh_facets facets; /* counted on demand */
+    uint32_t other_users;     /* atomic: shapes that share it, not counting the first */
 } knurl_mesh;
 
 /* Geometry of one triangle, as used by contact. */

@@ -27,7 +27,7 @@ static uint32_t pack_number(double x) {
     return (uint32_t)(uint16_t)(int16_t)lrint(x * 32767.0);
 }
 
-static uint32_t pack(const double n[3]) {
+uint32_t knurl_mesh_pack_normal(const double n[3]) {
     const double size = fabs(n[0]) + fabs(n[1]) + fabs(n[2]);
     double x = n[0] / size, y = n[1] / size;
     if (n[2] < 0.0) {
@@ -69,7 +69,7 @@ void knurl_mesh_normals(const knurl_mesh *mesh, uint32_t triangle, const double 
 static uint32_t pack_given(const float *given) {
     const double n[3] = {(double)given[0], (double)given[1], (double)given[2]};
     const double length = vec3_length(n);
-    return fabs(length - 1.0) <= LENGTH_TOLERANCE ? pack(n) : KNURL_NORMAL_OF_FACE;
+    return fabs(length - 1.0) <= LENGTH_TOLERANCE ? knurl_mesh_pack_normal(n) : KNURL_NORMAL_OF_FACE;
 }
 
 knurl_result knurl_mesh_pack_normals(knurl_heap *heap, const knurl_mesh_desc *desc, const uint32_t *corners,

@@ -20,6 +20,13 @@ knurl_result knurl_mesh_pack_normals(knurl_heap *heap, const knurl_mesh_desc *de
 /* Then, with the winding unified: decides which triangles are curved; frees the normals if no triangle is. */
 void knurl_mesh_settle_normals(knurl_heap *heap, knurl_mesh *mesh);
 
+/* After knurl_mesh_create(), of a mesh without normals: computes them from the triangles. Errors: KNURL_ERROR_MEMORY.
+ */
+knurl_result knurl_mesh_compute_normals(knurl_heap *heap, knurl_mesh *mesh);
+
+/* A unit vector, packed. */
+uint32_t knurl_mesh_pack_normal(const double normal[3]);
+
 /* 1 if some triangle of a description is to be felt curved: not a plane. */
 int knurl_mesh_curves(const knurl_mesh_desc *desc);
 

@@ -116,6 +116,7 @@ static void mesh_facts(const void *geometry, knurl_shape_facts *facts) {
                               .curved = mesh->curved,
                               .bad_normals = mesh->bad_normals,
                               .bulge = mesh->bulge,
+                              .has_computed_normals = mesh->has_computed_normals,
                               .uneven = mesh->uneven,
                               .projection_seams = mesh->projection_seams,
                               .error = 0.0}; /* meshes are stored as given, in floats */
@@ -225,6 +226,7 @@ static knurl_result from_mesh(knurl_heap *heap, const knurl_shape_desc *d, knurl
         return result;
     }
     shape->coordinates = choose_coordinates(d, &desc, &shape->has_flat_uvs);
+    desc.normals = d->smooth == KNURL_SMOOTH_OFF ? NULL : desc.normals;
     const int is_projected = !d->axis && !desc.uvs && !desc.tangents;
     shape->why = "the full model was requested";
     const int curves = knurl_mesh_curves(&desc);
@@ -235,6 +237,12 @@ static knurl_result from_mesh(knurl_heap *heap, const knurl_shape_desc *d, knurl
     }
     if (!result && !plane) {
         result = knurl_mesh_create(heap, &desc, &mesh);
+    }
+    if (!result && mesh && d->smooth == KNURL_SMOOTH_ON && !desc.normals) {
+        result = knurl_mesh_compute_normals(heap, mesh);
+        shape->why = mesh->normals ? "its triangles describe a curved surface, with edges where they are over 43 "
+                                     "degrees apart; it has no normals"
+                                   : shape->why;
     }
     if (!result && mesh && is_projected) {
         result = knurl_mesh_set_projection(heap, mesh);
@@ -254,6 +262,7 @@ knurl_result knurl_shape_create(knurl_heap *heap, const knurl_shape_desc *desc, 
         rotation[i] = i % 4 == 0 ? 1.0 : 0.0;
     }
     position[0] = position[1] = position[2] = 0.0;
+    shape->smooth = desc->smooth;
     if (!desc->plane == !desc->mesh) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "shape: expected exactly one of plane and mesh, found %s",
                           desc->plane ? "both" : "none");

@@ -1,6 +1,5 @@
 /* A shape in its own frame: a bounded plane or a triangle mesh. The kind is chosen at creation and called through a
- * table of functions. Immutable once created.
- * SPDX-License-Identifier: MIT */
+ * table of functions. Immutable once created. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_SHAPE_H
 #define KNURL_SRC_SHAPE_H
 
@@ -34,6 +33,7 @@ typedef struct knurl_shape {
     double bulge; /* m: greatest distance of the felt surface from a smooth mesh's triangles; 0: felt as is */
     int32_t has_coordinates, is_projected; /* 1: there are positions on the grating; 1: projected, with jumps */
     int32_t double_sided, has_flat_uvs;    /* 1: every triangle has two sides; 1: projected, for its uvs have no area */
+    int32_t smooth;                        /* KNURL_SMOOTH_ */
     const char *why, *coordinates;         /* static, of knurl_surface_info */
 } knurl_shape;
 
@@ -41,8 +41,8 @@ typedef struct knurl_shape {
 typedef struct knurl_shape_desc {
     const knurl_plane_desc *plane; /* exactly one of plane and mesh is set */
     const knurl_mesh_desc *mesh;
-    const double *axis;         /* unit, in the frame of the plane or mesh: the grating's x; null: tangents, else uvs */
-    int32_t is_box, full_model; /* 1: coordinates are projected, without an axis; 1: a flat mesh stays a mesh */
+    const double *axis; /* unit, in the frame of the plane or mesh: the grating's x; null: tangents, else uvs */
+    int32_t is_box, full_model, smooth; /* 1: projected, without an axis; 1: a flat mesh stays a mesh; KNURL_SMOOTH_ */
 } knurl_shape_desc;
 
 /* Creates a shape. position, rotation (row-major): its own frame, in the frame of the given plane or mesh. Errors:

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <tuple>
 
 namespace knurl::gltf {
 namespace {
@@ -78,11 +77,9 @@ class Filter {
 
     /// Reads each primitive once, for all nodes; primitives with the same mode and accessors share a place.
     uint32_t primitive_place(const Instance &instance) {
-        const bool is_smooth = instance.tag.smooth.value_or(true);
-        const auto [known, fresh] =
-            primitive_places_.try_emplace(std::tuple(instance.mesh, instance.primitive, is_smooth), 0);
+        const auto [known, fresh] = primitive_places_.try_emplace({instance.mesh, instance.primitive}, 0);
         if (fresh) {
-            tinygltf::Primitive made = primitive_of(instance.mesh, instance.primitive, is_smooth);
+            tinygltf::Primitive made = primitive_of(instance.mesh, instance.primitive);
             const auto [same, first] = same_primitives_.emplace(key_of(made), filtered_.primitives.size());
             if (first)
                 filtered_.primitives.push_back(std::move(made));
@@ -91,8 +88,7 @@ class Filter {
         return known->second;
     }
 
-    /// is_smooth: false: without its normals.
-    tinygltf::Primitive primitive_of(uint32_t mesh_index, uint32_t primitive_index, bool is_smooth) {
+    tinygltf::Primitive primitive_of(uint32_t mesh_index, uint32_t primitive_index) {
         const Fields mesh = root_.item("meshes", "mesh", mesh_index);
         const Fields primitive = mesh.element("primitives", primitive_index);
         tinygltf::Primitive kept;
@@ -108,9 +104,7 @@ class Filter {
         if (!attributes || attributes->find("POSITION") == nullptr)
             primitive.refuse_key("attributes.POSITION", "missing: expected an accessor in a tagged primitive");
         for (const Attribute &read : attributes_read)
-            if (!is_smooth && std::string_view(read.name) == "NORMAL")
-                continue;
-            else if (const auto accessor = attributes->index(read.name, accessors_, "accessors"))
+            if (const auto accessor = attributes->index(read.name, accessors_, "accessors"))
                 put(kept.attributes[read.name], keep_accessor(*accessor));
         return kept;
     }
@@ -200,7 +194,7 @@ class Filter {
     const Fields &root_;
     size_t accessors_, views_, buffers_; ///< of the whole file
     Model filtered_;
-    std::map<std::tuple<uint32_t, uint32_t, bool>, uint32_t> primitive_places_; ///< by mesh, primitive, smoothness
+    std::map<std::pair<uint32_t, uint32_t>, uint32_t> primitive_places_; ///< by mesh and primitive
     std::map<PrimitiveKey, size_t> same_primitives_;
 };
 

@@ -105,8 +105,13 @@ knurl_mesh_desc mesh_of(const Geometry &geometry) {
     return mesh;
 }
 
-/// Identifies a shape: the primitive's place, the baked transform, the axis (0, 0, 0: no axis), the coordinates.
-using ShapeKey = std::array<double, 14>;
+int32_t smooth_of(const Tag &tag) {
+    return !tag.smooth ? KNURL_SMOOTH_AUTO : *tag.smooth ? KNURL_SMOOTH_ON : KNURL_SMOOTH_OFF;
+}
+
+/// Identifies a shape: the primitive's place, the baked transform, the axis (0, 0, 0: no axis), the coordinates, and
+/// whether it is smooth.
+using ShapeKey = std::array<double, 15>;
 
 ShapeKey key_of(const Instance &instance, uint32_t primitive, const Frame &frame) {
     ShapeKey key{static_cast<double>(primitive)};
@@ -115,6 +120,7 @@ ShapeKey key_of(const Instance &instance, uint32_t primitive, const Frame &frame
     if (const auto &axis = instance.tag.axis)
         std::copy(axis->begin(), axis->end(), key.begin() + 10);
     key[13] = instance.tag.coordinates.value_or(KNURL_COORDINATES_AUTO);
+    key[14] = smooth_of(instance.tag);
     return key;
 }
 
@@ -210,6 +216,7 @@ class Maker {
                 surface.axis[k] = turned[k];
         }
         surface.coordinates = outline_.instances[i].tag.coordinates.value_or(KNURL_COORDINATES_AUTO);
+        surface.smooth = smooth_of(outline_.instances[i].tag);
         return addition.add(surface, where);
     }
 

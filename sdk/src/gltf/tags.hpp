@@ -20,7 +20,7 @@ struct Tag {
     std::optional<std::array<double, 3>> axis; ///< object space, not 0
     std::optional<int32_t> coordinates;        ///< KNURL_COORDINATES_
     std::optional<int32_t> method;
-    std::optional<bool> smooth; ///< false: felt as its triangles, whatever its normals
+    std::optional<bool> smooth; ///< KNURL_SMOOTH_ON or _OFF; empty: _AUTO
 
     /** Replaces each key that `other` has. */
     void override_with(const Tag &other);

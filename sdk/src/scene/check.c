@@ -216,7 +216,7 @@ static void check_winding(const inspection *on, const knurl_surface_data *surfac
 static void check_normals(const inspection *on, const knurl_surface_data *surface) {
     knurl_shape_facts facts;
     knurl_shape_get_facts(&surface->shape, &facts);
-    if (facts.bad_normals > 0) {
+    if (facts.bad_normals > 0 && !facts.has_computed_normals) {
         say(on, KNURL_LIMIT_NORMALS, "recalculate the normals in the editor",
             "%u of its %u triangles are felt flat, because their normals are not of unit length, more than "
             "60 degrees off the triangle, or fold the surface",

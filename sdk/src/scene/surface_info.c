@@ -1,4 +1,5 @@
 /* Reports on a surface, and finds an anchor for strokes. SPDX-License-Identifier: MIT */
+#include "contact/mesh_facets.h"
 #include "scene/scene.h"
 #include "surface/surface_frame.h"
 
@@ -61,6 +62,14 @@ static void describe_model(const knurl_surface_data *surface, knurl_surface_info
     info->coordinates = surface->shape.coordinates;
     info->uneven = facts.uneven;
     info->projection_seams = facts.projection_seams;
+    info->smooth = surface->shape.smooth;
+    if (!surface->shape.plane) {
+        const knurl_mesh_facets *facets = knurl_mesh_get_facets(surface->shape.geometry);
+        info->edges = facets->edges;
+        info->hard_edges = facets->hard_edges;
+        memcpy(info->facet_angle, facets->facet_angle, sizeof info->facet_angle);
+        memcpy(info->felt_angle, facets->felt_angle, sizeof info->felt_angle);
+    }
     info->double_sided = (uint32_t)surface->double_sided;
     info->bytes = knurl_heap_size(surface) + knurl_heap_size(surface->record) + knurl_heap_size(surface->name) +
                   facts.bytes / knurl_shape_users(&surface->shape);

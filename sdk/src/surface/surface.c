@@ -77,8 +77,15 @@ static knurl_result set_axis(const knurl_surface_desc *d, knurl_surface_data *su
 static knurl_result set_shape(knurl_heap *heap, const knurl_surface_desc *d, uint32_t full_model,
                               knurl_surface_data *surface) {
     const int has_axis = vec3_length(surface->axis) > 0.0;
-    const knurl_shape_desc shape = {d->plane, d->mesh, has_axis ? surface->axis : NULL,
-                                    d->coordinates == KNURL_COORDINATES_BOX, (full_model & KNURL_FULL_MESHES) != 0};
+    const knurl_shape_desc shape = {d->plane,
+                                    d->mesh,
+                                    has_axis ? surface->axis : NULL,
+                                    d->coordinates == KNURL_COORDINATES_BOX,
+                                    (full_model & KNURL_FULL_MESHES) != 0,
+                                    d->smooth};
+    if (d->smooth < KNURL_SMOOTH_AUTO || d->smooth > KNURL_SMOOTH_ON) {
+        return knurl_fail(KNURL_ERROR_UNKNOWN, "smooth: expected one of KNURL_SMOOTH_, found %d", (int)d->smooth);
+    }
     if (d->coordinates < KNURL_COORDINATES_AUTO || d->coordinates > KNURL_COORDINATES_BOX) {
         return knurl_fail(KNURL_ERROR_UNKNOWN, "coordinates: expected one of KNURL_COORDINATES_, found %d",
                           (int)d->coordinates);
@@ -121,6 +128,11 @@ static knurl_result set_shared_shape(const knurl_surface_desc *d, const knurl_sh
             "coordinates: expected KNURL_COORDINATES_AUTO with shape_of, whose coordinates are used, found "
             "%d",
             (int)d->coordinates);
+    }
+    if (d->smooth != KNURL_SMOOTH_AUTO) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT,
+                          "smooth: expected KNURL_SMOOTH_AUTO with shape_of, whose shape is used, found %d",
+                          (int)d->smooth);
     }
     vec3_copy(shared->axis, surface->axis);
     return KNURL_OK;

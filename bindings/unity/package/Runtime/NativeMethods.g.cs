@@ -165,7 +165,7 @@ namespace Knurl
         public fixed double axis[3];
         public ulong shape_of;
         public int coordinates;
-        public uint reserved;
+        public int smooth;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -495,7 +495,11 @@ namespace Knurl
         public byte* coordinates;
         public double uneven;
         public uint projection_seams;
-        public uint reserved;
+        public int smooth;
+        public uint edges;
+        public uint hard_edges;
+        public fixed double facet_angle[2];
+        public fixed double felt_angle[2];
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -667,7 +671,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
-        internal const string Interface = "463987e9109118fd";
+        internal const string Interface = "d496a5124f1f8430";
 
         internal const string Version = "0.3.0";
 
@@ -731,6 +735,7 @@ namespace Knurl
         internal const double KNURL_COORDINATE_MAX = 1000000000.0;
         internal const double KNURL_DEFAULT = -1.0;
         internal const double KNURL_TRACK_S = 0.02;
+        internal const double KNURL_CREASE_ANGLE = 0.75;
         internal const int KNURL_NO_EVENT = -1;
         internal const double KNURL_S2_DEADBAND = 0.001;
         internal const int KNURL_CONTACTS_MAX = 4;
@@ -759,6 +764,9 @@ namespace Knurl
         internal const int KNURL_VELOCITY_AUTO = 0;
         internal const int KNURL_VELOCITY_DIFFERENCE = 1;
         internal const int KNURL_VELOCITY_FOAW = 2;
+        internal const int KNURL_SMOOTH_AUTO = 0;
+        internal const int KNURL_SMOOTH_OFF = 1;
+        internal const int KNURL_SMOOTH_ON = 2;
         internal const int KNURL_WAVE_T1 = 17;
         internal const int KNURL_WAVE_T2 = 18;
         internal const int KNURL_WAVE_T3 = 19;
