@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Runs clang-tidy on the files named on stdin, as many at once as there are CPUs, and not again on what it found clean: a
+"""Runs clang-tidy on the files named on stdin, as many at once as there are CPUs, and not again on clean files: a
 file is known by the contents of all that it includes, by how it is compiled, and by clang-tidy's own version and settings.
-What several programs are linked of is looked at once, as the first of them compiles it.
+A file of several programs is checked once, with the options of the first.
 usage: tidy.py CLANG_TIDY BUILD CACHE     BUILD: has compile_commands.json. Exit 1: something was found.
 SPDX-License-Identifier: MIT"""
 import concurrent.futures

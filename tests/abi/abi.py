@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""What programs were built against stays: holds functions, constants and the layout of structs against the record of a
-release. Structs that begin with struct_size may grow at their end, others use up what is reserved in them; what is new is
+"""Checks binary compatibility: compares functions, constants and the layout of structs with the record of a release.
+Structs that begin with struct_size may grow at their end, others may use their reserved fields; what is new is
 free until a release records it.
 usage: abi.py SOURCE RECORD LIBRARY...           LIBRARY: static ones, or shared ones
        abi.py --write SOURCE RECORD LIBRARY...   makes the record of a release

@@ -2,8 +2,8 @@
 """Holds the sources to the architecture: which module may use which, no circles of files, short headers, and a picture that
 agrees with the code. SPDX-License-Identifier: MIT
 
-    check.py --build DIR [--nm NM] --objects FILE... [--objects FILE...]     what the test `architecture` runs
-    check.py --draw ...                                                      draws the picture anew (target `picture`)"""
+    check.py --build DIR [--nm NM] --objects FILE... [--objects FILE...]     the test `architecture`
+    check.py --draw ...                                                      draws the picture (target `picture`)"""
 import argparse
 import os
 import sys
@@ -13,7 +13,7 @@ from units import LIBRARY, PUBLIC, Code, unit_of
 
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 
-# Module: the modules that it may use. What is not here, bindings and samples, uses public headers only.
+# Module: the modules that it may use. Others, bindings and samples, use public headers only.
 MODULES = {
     "base": set(),
     "vibration": {"base"},
@@ -21,13 +21,13 @@ MODULES = {
     "motion": {"base"},
     "contact": {"base"},
     "device": {"base"},
-    "surface": {"base", "contact", "grating"},  # of a method what a material has to know
+    "surface": {"base", "contact", "grating"},  # of a method: the values that a material needs
     "proxy": {"base", "contact", "surface", "grating", "guard"},  # of gratings and walls their state
     "guard": {"base", "grating"},
     "hip": {"base", "grating", "motion", "contact", "surface", "proxy", "guard"},
     "scene": {"base", "grating", "motion", "contact", "surface", "proxy", "guard", "hip"},
     "stroke": {"base", "contact", "surface", "proxy", "hip", "scene", "device", "motion"},
-    "audio": {"base", "scene"},  # of the scene what a tick tells
+    "audio": {"base", "scene"},  # of the scene: a tick's output
     "loop": {"base", "scene", "hip", "guard", "device", "motion", "vibration"},  # workspaces are motion's; games add vibrations
     "gltf": {"scene", "grating", "contact"},
 }
@@ -36,13 +36,14 @@ DECLARED_IN = {room: {"scene", "hip"} for room in ("surface", "proxy", "guard", 
 DECLARED_IN["stroke"] = {"scene", "fake"}
 DECLARED_IN["device"] = {"device_functions", "fake"}
 DECLARED_IN["audio"] = {"hip"}
-# Headers with nothing to link, for what is linked with the library's public functions only: gltf, bindings and samples.
+# Headers without anything to link, for targets that link only the library's public functions: gltf, bindings and
+# samples.
 HEADER_ONLY = {"base/atomic", "base/finite", "base/handle", "base/regular_file", "base/seqlock"}
 
 SHORT_HEADERS = ("surface", "proxy", "guard", "hip", "scene", "contact")
 HEADER_LINES = 120
 
-# What fails today, to be removed. An entry that no longer fails is an error too.
+# Present failures, to be removed. An entry that no longer fails is also an error.
 KNOWN_CIRCLES = []
 KNOWN_LONG_HEADERS = []
 

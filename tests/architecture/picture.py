@@ -1,12 +1,12 @@
-"""The picture of the architecture, an SVG: modules, what stands in them, and an arrow from what uses to what is used. Where
-things stand is said here; what there is, and every arrow, comes from the code. SPDX-License-Identifier: MIT"""
+"""The picture of the architecture, an SVG: modules, their units, and an arrow from each user to the module that it
+uses. Positions are defined here; modules and arrows come from the code. SPDX-License-Identifier: MIT"""
 from xml.sax.saxutils import escape
 
 PATH = "assets/pictures/architecture.svg"
 WIDTH, HEIGHT = 944, 980
 BOX = 40  # height of a box with a title and a line below it
 
-# Module: left, top, right, bottom, what it does. Modules without boxes list their units.
+# Module: left, top, right, bottom, its purpose. Modules without boxes list their units.
 MODULES = {
     "loop": (16, 72, 304, 146, "the 1 kHz thread: read, tick, write"),
     "audio": (316, 72, 474, 146, "a tick's sound"),
@@ -21,8 +21,8 @@ MODULES = {
 }
 # Modules that are drawn as one, for their boxes are.
 TOGETHER = {"scene": ("surface", "proxy", "guard", "hip", "scene", "stroke")}
-# Where the arrow between two modules stands: x, or y where they stand side by side. Boxes in a module have arrows of their
-# own to boxes in other modules.
+# Position of the arrow between two modules: x, or y if they are side by side. Boxes in a module have their own arrows
+# to boxes in other modules.
 MODULE_ARROWS = {("gltf", "scene"): 860, ("loop", "device"): 81, ("loop", "scene"): 230, ("audio", "scene"): 393, ("scene", "motion"): 482, ("scene", "device"): 300,
                  ("scene", "grating"): 855, ("grating", "vibration"): 855}
 
@@ -65,7 +65,7 @@ BOXES = {
     "mesh": (516, 818, 108, "mesh, corner", "a corner table", ["contact/mesh", "contact/corner"]),
     "closest_point": (665, 818, 138, "closest_point", "of one triangle", ["contact/closest_point", "contact/facet"]),
 }
-# The way of a force: where a tick's steps are done, in their order.
+# The path of a force: the modules of a tick's steps, in order.
 WAY = ["device", "loop", "tick", "motion", "broad_phase", "candidates", "contact_update", "contact", "force_law",
        "grating", "vibration", "guard", "snapshot"]
 LEGEND = ["1 to 13: the way of", "a force; then back", "to the device", "", "blue: what a tick runs", "", "arrow: uses"]

@@ -1,7 +1,7 @@
 """Which files depend on which, read off the sources' includes and the objects' symbols. SPDX-License-Identifier: MIT
 
 A unit is X.c and X.h together (and X_posix.c, X_windows.c). It depends on another whose header it includes, or in which
-something that it calls is defined: what the linker would look for, and what its header's inline functions and macros name,
+something that it calls is defined: symbols for the linker, and names in its header's inline functions and macros,
 which the compiler puts into other units' objects. Units are named by their paths without an ending, from sdk/src for the
 library ("contact/mesh") and from the repository elsewhere ("bindings/godot/src/device")."""
 import collections
@@ -37,7 +37,7 @@ def named_in_header(text):
     text = NO_CODE.sub(" ", text)
     names = {name for _, body in DEFINE.findall(text) for name in NAME.findall(body)}
     text = re.sub(r"^\s*#.*$", "", text, flags=re.MULTILINE)
-    depth, head = 0, ""  # of braces in a body; what stands before the next brace outside one
+    depth, head = 0, ""  # of braces in a body; the text before the next brace outside one
     for part in re.findall(r"[^{};]+|[{};]", text):
         if depth:
             depth += {"{": 1, "}": -1}.get(part, 0)
@@ -54,7 +54,7 @@ class Code:
         self.files = sorted(self._find(FOLDERS) + self._find([PUBLIC]))  # from the repository
         self.uses = {unit_of(path): set() for path in self.files}  # unit: units
         self.headers = collections.defaultdict(set)  # file: files of FOLDERS that it includes
-        self.named = {}  # header: what its inline code names
+        self.named = {}  # header: names in its inline code
         self.public = collections.defaultdict(set)  # file: modules whose public headers it includes
         self.lines = {}  # file: how many
         self.nonblocking = set()  # units with something that may run in a tick
@@ -105,8 +105,8 @@ class Code:
             self.uses[unit].add(other)
 
     def add_objects(self, objects, build, nm):
-        """One program's or library's objects: what one of them, or inline code of a header in it, calls and another
-        defines. Inline C++ is seen where it calls C."""
+        """One program's or library's objects: calls from one of them, or from inline code of a header, to a definition
+        in another. Inline C++ is seen if it calls C."""
         sources = {path: source for path in objects if (source := source_of(path, build))}
         units = {path: unit_of(source) for path, source in sources.items()}
         out = subprocess.run([nm, "-A", "-P", *units], capture_output=True, text=True, check=True).stdout

@@ -61,7 +61,8 @@ static double line_at(const float window[WINDOW], double hz) {
     return 2.0 * sqrt(c * c + s * s) / WINDOW;
 }
 
-/* What the header says of the filters: a high pass of first order at 20 Hz, and the mean over an eighth of a sample. */
+/* The filters, as documented in the header: a high pass of first order at 20 Hz, and the mean over an eighth of a
+ * sample. */
 static double passed(double hz) {
     const double mean = PI * hz / (8.0 * RATE);
     return hz / sqrt(hz * hz + 400.0) * sin(mean) / mean;
@@ -156,7 +157,7 @@ TEST(a_smooth_surface_is_silent_however_hard_it_is_pressed) {
     knurl_audio_destroy(audio);
 }
 
-/* Uvs that begin anew, 70 cycles away: the wave goes on. */
+/* A jump of uvs by 70 cycles: the wave continues. */
 TEST(whole_cycles_that_no_motion_made_are_not_heard) {
     static float whole[600 * A_TICK];
     static float torn[600 * A_TICK];
@@ -172,7 +173,7 @@ TEST(whole_cycles_that_no_motion_made_are_not_heard) {
         knurl_audio_fill(b, torn + (size_t)k * A_TICK, A_TICK);
     }
     for (int i = 0; i < 600 * A_TICK; i++) {
-        const int at_jump = i / A_TICK % 100 <= 3; /* the step there is a fraction of a cycle, either way */
+        const int at_jump = i / A_TICK % 100 <= 3; /* the step there is a fraction of a cycle, in either direction */
         assert_true(at_jump || fabs((double)whole[i] - (double)torn[i]) < 1.5);
     }
     assert_true(loudest(torn, 600 * A_TICK) < 2.3 * LEVEL);

@@ -103,7 +103,7 @@ TEST(a_sample_comes_as_late_as_the_header_says) {
         first++;
     }
     const double late =
-        first / 48.0 - 200.0; /* ms; the edge lies half a tick before its tick, and was handed over at its end */
+        first / 48.0 - 200.0; /* ms; the edge is half a tick before its tick, and was passed on at its end */
     print_message("an edge comes %.2f ms after its tick\n", late);
     assert_true(late > 4.0 && late < 5.0 + 2.0 + 4.2);
     knurl_audio_destroy(audio);

@@ -1,4 +1,4 @@
-/* Ticks of a HIP over a grating as a scene tells them, by the equations: K (H + depth), H by Eq. 11.
+/* Ticks of a HIP over a grating like a scene's output, by the equations: K (H + depth), H by Eq. 11.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_TEST_TICKS_H
 #define KNURL_TEST_TICKS_H

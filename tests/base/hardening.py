@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""What the compiler and the linker were asked for against attackers is in what they built (CMakeLists.txt).
+"""Checks that the binaries have the hardening that CMakeLists.txt requests.
 usage: hardening.py PROGRAM_OR_LIBRARY... --readers OBJECT...
-PROGRAM_OR_LIBRARY: linked; OBJECT: of the libraries, of which those that read strangers' bytes are looked at."""
+PROGRAM_OR_LIBRARY: linked; OBJECT: of the libraries; those that parse untrusted input are checked."""
 import re
 import subprocess
 import sys

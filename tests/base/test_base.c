@@ -1,4 +1,4 @@
-/* Results and messages, growable structs, histograms, snapshots, time and threads, against what their headers promise.
+/* Results and messages, growable structs, histograms, snapshots, time and threads, against their headers' promises.
  * SPDX-License-Identifier: MIT */
 #include "support/close.h"
 
@@ -51,7 +51,7 @@ TEST(ok_is_zero_and_every_error_is_negative) {
 TEST(fail_returns_its_code_and_keeps_the_sentence) {
     assert_int_equal(knurl_fail(KNURL_ERROR_IO, "%s: expected %d, found %g", "plate", 3, 0.5), KNURL_ERROR_IO);
     assert_string_equal(knurl_error_message(), "plate: expected 3, found 0.5");
-    (void)knurl_result_string(KNURL_ERROR_MEMORY); /* what succeeds leaves it alone */
+    (void)knurl_result_string(KNURL_ERROR_MEMORY); /* a success does not change it */
     (void)knurl_version_string();
     assert_string_equal(knurl_error_message(), "plate: expected 3, found 0.5");
     (void)knurl_fail(KNURL_ERROR_STATE, "next");
@@ -287,7 +287,7 @@ typedef struct published {
 #if defined(__SANITIZE_THREAD__)
 #define SNAPSHOTS 100000 /* a hundred times slower, and it needs no luck */
 #else
-#define SNAPSHOTS 3000000 /* some 0.1 s: fewer may all be written between two looks */
+#define SNAPSHOTS 3000000 /* some 0.1 s: fewer may all be written between two reads */
 #endif
 
 static void *write_snapshots(void *argument) {
@@ -323,7 +323,7 @@ TEST(a_snapshot_is_never_torn_and_never_older_than_the_one_before) {
         }
     }
     assert_int_equal(pthread_join(thread, NULL), 0);
-    assert_int_equal(latest, SNAPSHOTS); /* what is read after the last write is the last write */
+    assert_int_equal(latest, SNAPSHOTS); /* a read after the last write returns the last write */
 }
 
 TEST(a_text_ends_in_whatever_an_older_caller_has_of_it) {
@@ -358,7 +358,7 @@ TEST(a_live_handle_is_told_from_null_from_another_kind_and_from_a_destroyed_one)
     assert_string_equal(knurl_error_message(), "none: expected a scene, found null");
     assert_true(KNURL_BAD_HANDLE(scene, DEVICE));
     assert_string_equal(knurl_error_message(), "scene: expected a device, found a scene");
-    assert_true(KNURL_BAD_HANDLE((char *)elsewhere + 1, SCENE)); /* no object begins there */
+    assert_true(KNURL_BAD_HANDLE((char *)elsewhere + 1, SCENE)); /* there is no object */
     knurl_handle_clear(scene);
     assert_false(KNURL_IS_HANDLE(scene, SCENE));
     assert_true(KNURL_BAD_HANDLE(scene, SCENE));

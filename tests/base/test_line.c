@@ -1,4 +1,4 @@
-/* Names that do something to a terminal, and where they come out. SPDX-License-Identifier: MIT */
+/* Names with terminal escapes, wherever they are printed. SPDX-License-Identifier: MIT */
 #include "support/suite.h"
 
 #include <knurl/base.h>

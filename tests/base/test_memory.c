@@ -1,4 +1,4 @@
-/* Counted memory: what a heap and a scene ask of an allocator, give back, and do when there is none left.
+/* Counted memory: allocations and frees of a heap and a scene, and their behaviour when memory runs out.
  * SPDX-License-Identifier: MIT */
 #include "support/close.h"
 
@@ -8,14 +8,14 @@
 
 #include <stdlib.h>
 
-/* An allocator that keeps books and fails where it is told to. */
+/* An allocator that keeps accounts and fails on request. */
 typedef struct books {
     struct {
         void *memory;
         size_t size;
     } held[1024];
     size_t count, bytes, calls, wrong;
-    size_t fail_at; /* the call that gets nothing; 0: none */
+    size_t fail_at; /* the call that fails; 0: no call */
 } books;
 
 static void *book_allocate(size_t size, size_t alignment, void *user) {

@@ -1,5 +1,5 @@
-/* Files that are swapped between a look at their path and its opening, as an attacker in the same folder would: what is
- * opened then is looked at again. SPDX-License-Identifier: MIT */
+/* Files that are swapped between the check of their path and its opening, as by an attacker in the same folder: the
+ * opened file is checked again. SPDX-License-Identifier: MIT */
 #include "support/close.h"
 #include "support/tool.h"
 
@@ -10,7 +10,7 @@
 #include <fcntl.h>
 #include <sys/syscall.h>
 
-/* What is done just before a path that ends with this part is opened; once. */
+/* A swap, done once, just before a path with this end is opened. */
 static const char *swapped_part;
 static void (*swap)(void);
 
@@ -22,7 +22,7 @@ static void before_opening(const char *path) {
     }
 }
 
-/* These are what the libraries call, instead of the C library's own. None here makes a file. */
+/* Replacements of the C library's functions. No call here creates a file. */
 int open(const char *path, int flags, ...) {
     before_opening(path);
     return (int)syscall(SYS_openat, AT_FDCWD, path, flags, 0);

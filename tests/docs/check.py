@@ -1,5 +1,5 @@
-"""Checks the documentation: links lead somewhere, functions exist, README's C stands in the sample that it names, README
-is short, and its pictures suit dark pages too.
+"""Checks the documentation: links are valid, functions exist, README's C is in the sample that it names, README is
+short, and its pictures suit dark pages too.
 
 SPDX-License-Identifier: MIT
 """
@@ -12,7 +12,7 @@ import zlib
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 README_MOST = 6 * 1024  # bytes
 SAMPLE = "samples/feel_scene.c"
-SCREENSHOTS = {"web.png", "web_phone.png", "godot.png"} # no drawings: what is dark of them is a screenshot, too
+SCREENSHOTS = {"web.png", "web_phone.png", "godot.png"} # not drawings: their dark variants are screenshots, too
 
 
 def pages():

@@ -107,7 +107,7 @@ def tagging(text, known, default):
     return re.search(r"\| `knurl_method` \| \| optional\. (.*?):", text)[1], any_of(names, "")
 
 
-# File: what it lists and what it should, as a pair.
+# File: a function that returns its list and the expected one, as a pair.
 LISTS = {
     "assets/knurl_extras.schema.json": schema,
     "assets/README.md": assets,

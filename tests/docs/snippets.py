@@ -2,7 +2,7 @@
 """The code shown in the documentation compiles.
 usage: snippets.py check CC CXX          compiles C (also as C++), checks shells' syntax, ./run's commands and knurl's options
        snippets.py write LANGUAGE DIR [BELOW]   writes each block of a language, for the tests that have its compiler, with
-                                         what it assumes around it; prints the files' names. BELOW: only pages of a folder
+                                         the code around it; prints the files' names. BELOW: only pages of a folder
 
 SPDX-License-Identifier: MIT
 """
@@ -16,7 +16,7 @@ from check import ROOT, pages
 
 ENDINGS = {"c": ".c", "sh": ".sh", "cmake": ".txt", "python": ".py", "gdscript": ".gd", "csharp": ".cs"}
 
-# What a page's code assumes: lines before it and after it. Without an entry a block compiles as it stands.
+# Code around a page's blocks: lines before and after. Without an entry a block compiles alone.
 AROUND = {
     ("README.md", "c"): ("#include <knurl/knurl.h>\nint fail(void);\nint feel(const char *file, const char *uri);\n"
                          "int feel(const char *file, const char *uri) {\n"

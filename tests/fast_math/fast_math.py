@@ -4,7 +4,7 @@
 usage: fast_math.py SOURCE BUILD PLAIN_HOST C_COMPILER CXX_COMPILER GENERATOR
 
 SOURCE: Knurl's; BUILD: a folder for the host, kept for the next time; PLAIN_HOST: host/host.c, built without such flags.
-Exit 0, or 1 with what differs. SPDX-License-Identifier: MIT
+Exit 0, or 1 with the differences. SPDX-License-Identifier: MIT
 """
 import os
 import platform

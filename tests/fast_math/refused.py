@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every source of ours says so where a build system of somebody's own compiles it with other than IEEE arithmetic.
+"""Every source is an error if another build system compiles it without IEEE arithmetic.
 
 usage: refused.py SOURCE C_COMPILER CXX_COMPILER
 
@@ -15,7 +15,7 @@ import sys
 SENTENCE = "Knurl must be compiled with"
 X86 = platform.machine().lower() in ("x86_64", "amd64")
 REFUSED = ["-ffast-math", "-Ofast", "-ffinite-math-only"] + (["-mfpmath=387"] if X86 else [])
-# Of these not every compiler tells a program.
+# Not every compiler defines macros for these.
 PARTS = ["-funsafe-math-optimizations", "-freciprocal-math", "-fassociative-math -fno-signed-zeros -fno-trapping-math"]
 ALLOWED = ["", "-O3 -march=native", "-ffast-math -fno-fast-math"] + (["-mfpmath=387 -mfpmath=sse"] if X86 else [])
 

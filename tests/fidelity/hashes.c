@@ -1,4 +1,4 @@
-/* Hashes of what the library computes, a line each: ticks of every method on a plane, a mesh, in a corner and on a
+/* Hashes of the library's results, one line each: ticks of every method on a plane, a mesh, in a corner and on a
  * surface that moves, and temporal signals. Builds by other compilers or for other machines must print the same
  * (same_numbers.py). Nothing in this file calls libm, which differs between machines; the library does for
  * surfaces that move.

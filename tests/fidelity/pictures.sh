@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The pictures whose data are quick to make again show what the code does: assets/pictures/NAME.data says what NAME.png
-# was drawn from. `./run figures --check` looks at all the others. usage: pictures.sh KNURL FOLDER
+# Checks that pictures with quickly computed data are up to date: assets/pictures/NAME.data summarises the data of
+# NAME.png. `./run figures --check` checks all the others. usage: pictures.sh KNURL FOLDER
 set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
 code=0

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Builds the library by other compilers, at other levels and for other machines, and compares hashes of what it computes
+"""Builds the library by other compilers, at other levels and for other machines, and compares hashes of its results
 (hashes.c) with those of the first build. A compiler or an emulator that is missing is named and left out.
 usage: same_numbers.py SOURCE FOLDER C_COMPILER [NAME...]     NAME: these builds alone; FOLDER is kept for the next time
 SPDX-License-Identifier: MIT"""
@@ -10,7 +10,7 @@ import sys
 
 SOURCE, FOLDER, CC, *NAMES = sys.argv[1:]
 
-# Name: compiler, options, and what else it needs: the machine that CMake is told, and its emulator.
+# Name: compiler, options, and further settings: CMake's processor, and its emulator.
 BUILDS = {
     "O3": (CC, "-O3"),
     "O0": (CC, "-O0"),
@@ -22,8 +22,8 @@ BUILDS = {
     "armhf": ("arm-linux-gnueabihf-gcc", "-O2", "arm", "qemu-arm"),
 }
 
-# A surface that rotates calls the C library's sin() and cos(), whose last bit is another one on a CPU without FMA. The
-# first build, told by glibc's tunables that its CPU has none, computes the same as these do.
+# A surface that rotates calls the C library's sin() and cos(), whose last bit differs on a CPU without FMA. The first
+# build, with FMA disabled by glibc's tunables, gives the same results as these.
 WITHOUT_FMA = ("armhf",)
 NO_FMA = {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2"}
 

@@ -1,4 +1,4 @@
-/* The yardstick over all speeds, at 1 kHz: against closed forms where a method has one, and within what was asked of
+/* The yardstick over all speeds, at 1 kHz: against closed forms if a method has one, and within the goals set for
  * bandlimited before it was built. SPDX-License-Identifier: MIT */
 #include "accuracy.h"
 #include "support/close.h"

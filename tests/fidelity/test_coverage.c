@@ -1,5 +1,5 @@
-/* Claim 4 of the paper: which frequencies can be played without a step that a hand feels, at 1 kHz and at 2 kHz, where
- * every one of them is twice as high. Expected numbers: f_h/N worked out on whole numbers here, and the paper's.
+/* Claim 4 of the paper: the frequencies that can be played without a step that a hand feels, at 1 kHz and at 2 kHz, at
+ * which all are twice as high. Expected numbers: f_h/N computed here with integers, and the paper's.
  * SPDX-License-Identifier: MIT */
 #include "support/close.h"
 
@@ -104,7 +104,7 @@ TEST(gaps_reach_from_f_1_plus_wf_to_the_neighbour) {
     CHECK_CLOSE(gaps[2].low, 400.0, 1e-9);
 }
 
-/* The lower fractions of the literature with whole periods alone: what is within WF of neither neighbour. */
+/* The lower fractions of the literature with whole periods only: frequencies within WF of neither neighbour. */
 TEST(whole_periods_alone_leave_one_band_unreached_below_0_225) {
     study_gap gaps[STUDY_MAX_REACH];
     for (size_t i = 0; i < COUNT_OF(rates); i++) {
@@ -120,7 +120,7 @@ TEST(whole_periods_alone_leave_one_band_unreached_below_0_225) {
     }
 }
 
-/* The paper gives no audible Weber fraction. Its limits lie where they should if the fraction is 5.6 to 5.9 % at
+/* The paper gives no audible Weber fraction. Its limits fit a fraction of 5.6 to 5.9 % at
  * 27.8 Hz and 4.2 to 4.3 % at 41.7 Hz: then the first gap is the one that holds 28.8 Hz, or 43.1 Hz (and begins beyond
  * 41.7 Hz, its other number for the same limit). */
 TEST(audible_steps_begin_around_28_8_hz_and_43_1_hz) {

@@ -203,7 +203,7 @@ TEST(the_simulated_answerer_is_the_formula_it_says) {
     uint64_t noise = 1;
     int second = 0;
     CHECK_CLOSE(exp_badness(KNURL_WAVE_T1, 4, 1), 0.0L, 1e-4L);  /* even: neither a net force nor a false line */
-    CHECK_CLOSE(exp_badness(KNURL_WAVE_T2, 3, 1), 1.0L, 1e-12L); /* no line where it should be */
+    CHECK_CLOSE(exp_badness(KNURL_WAVE_T2, 3, 1), 1.0L, 1e-12L); /* no line at its frequency */
     CHECK_CLOSE(exp_badness(KNURL_WAVE_T1, 3, 2) - exp_badness(KNURL_WAVE_T1, 3, 1), 1.0L / 3.0L, 1e-9L); /* A/N */
     exp_neighbours(trial.period, periods);
     for (int i = 0; i < 3; i++) {

@@ -1,4 +1,4 @@
-/* A trial of the paper's experiments as it is played: timing tick by tick, what the device is told, who answers.
+/* A trial of the paper's experiments as played: timing tick by tick, the device's forces, the answers.
  * SPDX-License-Identifier: MIT */
 #include "support/close.h"
 #include "support/paper.h"
@@ -17,7 +17,7 @@ static long double paper_value(int32_t method, uint64_t tick, int64_t milliticks
     return method == KNURL_WAVE_T2 ? paper_t2(tick, milliticks, amplitude) : paper_t3(tick, milliticks, amplitude);
 }
 
-/* Section IV-A4, as a list of when each vibration begins and ends, in ms. */
+/* Section IV-A4, as a list of each vibration's start and end, in ms. */
 static long double scheduled(const exp_trial *trial, uint64_t ms) {
     static const uint64_t starts[6] = {0, 1500, 3000, 5000, 6500, 8000};
     double periods[3];
@@ -45,7 +45,7 @@ TEST(every_trial_s_force_is_the_paper_s_schedule) {
     }
 }
 
-/* --- a device that writes down what it is told and whose buttons go as the test says --- */
+/* --- a device that records its forces and whose buttons the test presses --- */
 
 typedef struct bench {
     knurl_device device; /* first: the driver's functions get it */
@@ -125,7 +125,7 @@ TEST(the_device_is_told_the_schedule_shortened_to_what_it_can_do) {
         CHECK_CLOSE(device.written[t][1], fmaxl(-3.3L, fminl(3.3L, wanted)), 1e-12L);
         CHECK_SAME(device.written[t][2], 0.0L);
     }
-    assert_in_range(device.writes, 10001, 10100); /* the loop's ramp goes from nothing to nothing */
+    assert_in_range(device.writes, 10001, 10100); /* the loop's ramp goes from zero to zero */
     assert_int_equal(o.ticks, 10001);
     assert_int_equal(beyond, 166); /* -1.731 x 2.10 N once in 6 ticks of the second that T3 has at 400 Hz */
     assert_int_equal(o.force_limit_ticks, beyond);

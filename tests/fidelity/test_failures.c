@@ -1,5 +1,5 @@
-/* The catalogue of failures (samples/study/failures.md): each number against its closed form, or between bounds where
- * there is none, and the page against what is measured. SPDX-License-Identifier: MIT */
+/* The catalogue of failures (samples/study/failures.md): each number against its closed form, or between bounds if
+ * there is none, and the page against the measured values. SPDX-License-Identifier: MIT */
 #include "failures.h"
 #include "metrics.h"
 #include "steady.h"
@@ -65,9 +65,9 @@ TEST(s1_diagonal) {
     CHECK_CLOSE(measure("s1_diagonal"), 0.0, 0.0);
 }
 
-/* A tick at 100 mm/s holds 0.1 (cos a + sin a) cycles' edges of each kind: where they are independent of one another,
+/* A tick at 100 mm/s holds 0.1 (cos a + sin a) cycles' edges of each kind: if they are independent of one another,
  * both kinds fall into one tick with a chance of 0.2 cos a x 0.2 sin a, and take two edges of 0.2 (cos a + sin a) away:
- * 14 % on the diagonal. Where they are not independent it is more. */
+ * 14 % on the diagonal. If they are not independent it is more. */
 TEST(s1_grid) {
     assert_between(14.0, 30.0, measure("s1_grid"));
 }
@@ -136,7 +136,7 @@ TEST(foaw_pulses) {
     CHECK_CLOSE(measure("foaw_pulses"), 0.055 / 0.011, 1e-6);
 }
 
-/* Bangs through millimetres, within what 1 N of press against a loose hand can do. */
+/* Swings of millimetres, within the reach of 1 N of press against a loose hand. */
 TEST(wall_runaway) {
     assert_between(1.0, 10.0, measure("wall_runaway"));
 }
@@ -172,7 +172,7 @@ TEST(contact_winding) {
     assert_between(25.0, 50.0, measure("contact_winding"));
 }
 
-/* More than one that is never behind, less than one that stays where it was. */
+/* More than a HIP that is never behind, less than one that does not move. */
 TEST(contact_crowd) {
     assert_between(0.5, 13.1, measure("contact_crowd"));
 }

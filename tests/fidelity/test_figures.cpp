@@ -1,7 +1,7 @@
 // The figures' numbers as golden JSON. The values themselves are proven by the other fidelity tests, from closed forms;
-// these files pin that a change of the code does not move a figure unseen. Made by `knurl study NAME --out DIR`; a
-// change that is meant replaces the file, and its commit says why. SPDX-License-Identifier: MIT
-// cmocka's macros (fail) break the standard headers: those come first
+// these files detect unintended changes of a figure. Made by `knurl study NAME --out DIR`; an intended change replaces
+// the file, and its commit gives the reason. SPDX-License-Identifier: MIT cmocka's macros (fail) break the standard
+// headers: they come first
 #include <nlohmann/json.hpp>
 
 #include <cmath>

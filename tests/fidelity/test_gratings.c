@@ -39,7 +39,7 @@ static study_scan across(int32_t method, double rate, double period_ticks, size_
 }
 
 TEST(s2_drifts_by_period_over_length) {
-    /* an event of N ticks where T were crossed: T/N - 1; the mix plays 2.4 cycles in 6 ticks: T/2.5 - 1 */
+    /* an event of N ticks while T were crossed: T/N - 1; the mix plays 2.4 cycles in 6 ticks: T/2.5 - 1 */
     static const struct {
         double period, length; /* length: ticks a cycle played */
     } cases[] = {{3.5 - 1e-6, 3.0}, {3.5, 4.0},  {4.5 - 1e-6, 4.0},  {4.5, 5.0},   {2.25 - 1e-6, 2.0}, {2.25, 2.5},
@@ -57,7 +57,7 @@ TEST(s2_drift_at_three_and_a_half_ticks_is_the_papers) {
         study_scan at = across(KNURL_METHOD_S2, rates[i], 3.5, 6000);
         CHECK_CLOSE(study_scan_drift(&below), 1.0 / 6.0, 1e-6L);
         CHECK_CLOSE(study_scan_drift(&at), -0.125, 1e-8L);
-        /* what is not played is dropped; what is played too much serves nothing */
+        /* missing cycles are dropouts; extra ones do not count */
         CHECK_CLOSE(study_scan_dropout(&below), 0.0, 0.0L);
         CHECK_CLOSE(study_scan_dropout(&at), 0.125, 0.001L); /* 3428 half cycles, the edge of the count is 2 of them */
         /* 6000 ticks: 2000 events against 6000/3.5 cycles, 1500 against as many */
@@ -205,7 +205,7 @@ TEST(spurious_energy_of_three_ticks_is_a_quarter) {
 }
 
 TEST(dropout_is_what_comes_a_half_cycle_late_or_never) {
-    /* a half cycle crossed a tick; played: none before tick 6, where three come at once, then one a tick */
+    /* a half cycle crossed a tick; played: no half cycle before tick 6, then three at once, then one per tick */
     double crossed[11];
     double played[11];
     double height[10] = {0.0};
@@ -221,7 +221,7 @@ TEST(dropout_is_what_comes_a_half_cycle_late_or_never) {
     }
     CHECK_SAME(study_scan_dropout(&scan), 0.0);
     for (int k = 0; k <= 10; k++) {
-        played[k] = fmin(k, 5.0); /* two a tick to tick 5, then none: 0 to 6 are served, the rest was too early */
+        played[k] = fmin(k, 5.0); /* two per tick up to tick 5, then no more: 0 to 6 count, the rest was too early */
     }
     CHECK_CLOSE(study_scan_dropout(&scan), 2.0 / 9.0, 1e-12L);
 }

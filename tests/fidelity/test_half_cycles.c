@@ -1,4 +1,4 @@
-/* No half cycle is lost at any speed, whatever the tessellation: gratings of 1, 2 and 4 mm at 49, 99 and 247 mm/s, 16
+/* No half cycle is lost at any speed, with any tessellation: gratings of 1, 2 and 4 mm at 49, 99 and 247 mm/s, 16
  * start phases, through the whole tick. SPDX-License-Identifier: MIT */
 #include "support/close.h"
 
@@ -33,8 +33,8 @@ static void check_whole(const half_cycles *h, size_t cell, const char *what) {
     }
 }
 
-/* Algorithm 6 plays T to the nearest whole tick, half up; Eqs. 5 and 7 say what each half gives. S2 counts no ridges:
- * it plays T/N events a cycle. */
+/* Algorithm 6 plays T to the nearest whole tick, half up; Eqs. 5 and 7 give the impulse of each half. S2 counts no
+ * ridges: it plays T/N events a cycle. */
 TEST(on_a_plane_every_half_cycle_is_the_same) {
     for (size_t cell = 0; cell < CELLS; cell += STEP) {
         const double ticks = floor(ticks_of(cell) + 0.5);
@@ -48,9 +48,8 @@ TEST(on_a_plane_every_half_cycle_is_the_same) {
     }
 }
 
-/* Held 1 mm from the facets, nothing but the grating is felt. A proxy that walks stays on its facet up to where the
- * next one's edge begins, at most d (1/cos(b) - 1) too deep across a bend b; b is the curvature times a cell's
- * diagonal. */
+/* Held 1 mm from the facets, only the grating is felt. A moving proxy stays on its facet up to the next one's edge, at
+ * most d (1/cos(b) - 1) too deep across a bend b; b is the curvature times a cell's diagonal. */
 static void check_facets(uint32_t triangles) {
     wavy_sheet sheet;
     assert_int_equal(wavy_sheet_make(triangles, &sheet), 0);
@@ -93,7 +92,7 @@ TEST(facets_are_felt_as_deep_as_they_are_and_lose_no_half_cycle) {
         const double k = 2.0 * acos(-1.0) / SHEET_WAVE;
         const double diagonal = hypot(2.0 * SHEET_HALF_X / sheet.columns, 2.0 * SHEET_HALF_Y / sheet.rows);
         const double sagitta = SHEET_AMPLITUDE * k * k * diagonal * diagonal / 8.0;
-        for (size_t cell = 2; cell < CELLS; cell += 3 * STEP) { /* at 247 mm/s, where halves are short */
+        for (size_t cell = 2; cell < CELLS; cell += 3 * STEP) { /* at 247 mm/s, at which halves are short */
             const half_cycles h = measured(HALF_CYCLES_CURVE, &sheet, cell);
             check_whole(&h, cell, "curve");
             assert_true(h.worst_half <= sagitta / HALF_CYCLES_AMPLITUDE + 1e-4);

@@ -1,4 +1,4 @@
-/* What the paper's subjects and its force sensor said: the published cells, rank correlations, the simulated bench.
+/* Results of the paper's subjects and its force sensor: the published cells, rank correlations, the simulated bench.
  * SPDX-License-Identifier: MIT */
 #include "support/close.h"
 
@@ -48,7 +48,7 @@ TEST(rank_correlations_with_ties) {
     assert_true(isnan(rank_kendall(flat, y, 5)));
 }
 
-/* What the bench reads at a period in ticks. */
+/* The bench's reading at a period in ticks. */
 static study_signal bench_signal(int32_t method, double ticks, double newtons) {
     const bench_fixture fixture = bench_make_fixture(40e3, 60.0);
     knurl_wave wave;
@@ -87,10 +87,10 @@ TEST(bench_reads_what_the_appendix_says) {
     CHECK_CLOSE(lines[0].amplitude / lines[2].amplitude, 1.1027 / 1.1695, 0.05L);
     /* "T2's odd-period fundamentals much larger than anticipated": 1.1388/1.1695 was computed */
     assert_true(lines[1].amplitude / lines[2].amplitude > 1.2 * 1.1388 / 1.1695);
-    /* the parasitic net force of T1, A/3, less at most what dry friction holds; small ones in the others */
+    /* the parasitic net force of T1, A/3, less at most the dry friction; small ones in the others */
     assert_true(nets[0] > 0.2 && nets[0] < 0.34);
     assert_true(fabs(nets[1]) < 0.06 && fabs(nets[2]) < 0.06 && fabs(nets[2]) > 1e-3);
-    /* T1 is T3 but for scale and offset: only dry friction can tell them apart */
+    /* T1 equals T3 up to scale and offset: only dry friction makes a difference */
     assert_true(pcc > 0.999 && pcc < 1.0 - 1e-6);
 }
 

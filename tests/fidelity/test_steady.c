@@ -28,7 +28,7 @@ TEST(the_level_is_that_of_the_line) {
     CHECK_CLOSE(measure(137.0, 1.2, 61.0, 0.3, 0.1).level, 1.2, 1e-9);
 }
 
-/* Hann's window leaves of a line what falls with the cube of its distance: 137 bins here. */
+/* Hann's window attenuates a line with the cube of its distance: 137 bins here. */
 TEST(what_stays_is_the_mean_wherever_the_last_cycle_is_cut) {
     CHECK_CLOSE(measure(137.37, 1.0, 30.0, 0.0, -0.07).mean, 0.07, 1e-6);
     CHECK_CLOSE(measure(137.37, 1.0, 30.0, 0.0, 0.0).mean, 0.0, 1e-6);
@@ -114,7 +114,7 @@ TEST(a_wave_of_three_ticks_has_the_line_and_the_push_of_its_three_values) {
     CHECK_CLOSE(found.wavering, 0.0, 1e-6);
 }
 
-/* A cosine and a sine told apart, whole and mixed. */
+/* Separates a cosine and a sine, pure and mixed. */
 TEST(a_line_has_a_cosine_and_a_sine) {
     double heights[TICKS];
     double line[2];

@@ -1,5 +1,5 @@
 /* Claims 1, 2 and 5 of the paper: dominant component, net force and correlation of T1, T2 and T3, at 1 kHz and 2 kHz,
- * where all of it is the same at half the period. Expected numbers are closed forms, and the printed ones.
+ * at which all is the same at half the period. Expected numbers are closed forms, and the printed ones.
  * SPDX-License-Identifier: MIT */
 #include "support/close.h"
 

@@ -1,4 +1,4 @@
-/* What the chart of velocity estimators says, and that it measures what it says: closed forms where there are any.
+/* The chart of velocity estimators, and its measurements against closed forms.
  * SPDX-License-Identifier: MIT */
 #include "support/close.h"
 
@@ -30,8 +30,8 @@ static double squares(void) {
     return sum * (1.0 + 0.5 * VELOCITY_WOBBLE * VELOCITY_WOBBLE);
 }
 
-/* rms error of an estimator that answers each count that is crossed by a pulse whose squares sum to `power` (counts a
- * tick), where no two pulses overlap: counts come p a tick, so p power - p^2. */
+/* rms error of an estimator that outputs a pulse for each crossed count, with squares that sum to `power` (counts per
+ * tick), if pulses do not overlap: p counts per tick, so p power - p^2. */
 static double pulsed(double speed, double rate, double power) {
     const double tick = COUNT * rate; /* a count a tick, m/s */
     return sqrt(speed * tick * power - speed * speed * squares());
@@ -57,8 +57,8 @@ TEST(a_low_pass_is_late_by_its_phase_at_two_strokes_a_second) {
     }
 }
 
-/* Where counts come more than 15 ms apart, each is a pulse of 15 samples: 1/15 count a tick as published; by thirds
- * 1, 2, 3, 4, seven times 5, 4, 3, 2, 1 of 55. This is what it cannot do: 1 mm/s comes out as 5 mm/s now and then. */
+/* If counts are more than 15 ms apart, each is a pulse of 15 samples: 1/15 count a tick as published; by thirds
+ * 1, 2, 3, 4, seven times 5, 4, 3, 2, 1 of 55. This is its limit: 1 mm/s is sometimes estimated as 5 mm/s. */
 TEST(below_a_count_in_15_ms_every_foaw_pulses) {
     for (size_t i = 0; i < 2; i++) {
         const velocity_errors published = measured("FOAW as published", COUNT, 1000.0, speeds[i]);

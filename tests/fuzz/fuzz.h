@@ -1,5 +1,5 @@
-/* What the fuzz targets share. A target takes any bytes, asks the library something, and stops where an answer breaks a
- * promise; sanitizers watch the rest. SPDX-License-Identifier: MIT */
+/* Shared by the fuzz targets. A target passes any bytes to the library, and aborts if a result breaks a promise;
+ * sanitizers detect the rest. SPDX-License-Identifier: MIT */
 #ifndef KNURL_FUZZ_H
 #define KNURL_FUZZ_H
 
@@ -63,7 +63,7 @@ static inline double take_number(supply *s) {
     return (double)any;
 }
 
-/* Ticks a few times along a way through the middle of things and holds what comes to the header's promises. */
+/* Ticks a few times along a path through the middle, and checks the results against the header's promises. */
 static inline void expect_good_ticks(knurl_scene *scene, supply *s, int ticks) {
     for (int i = 0; i < ticks; i++) {
         knurl_tick_input in;

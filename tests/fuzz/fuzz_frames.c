@@ -1,4 +1,4 @@
-/* What devices send: frames of a Falcon in packets of any size, reports of a raw HID device, messages of Haply's
+/* Devices' messages: frames of a Falcon in packets of any size, reports of a raw HID device, messages of Haply's
  * service. SPDX-License-Identifier: MIT */
 #include "fuzz.h"
 

@@ -1,5 +1,5 @@
 // Files whose structure is right and whose values are chosen by the bytes: tags in all three places and both forms,
-// nodes that share and nest, accessors of every type over one buffer. What random bytes hardly ever come to.
+// nodes that share and nest, accessors of every type over one buffer. Random bytes rarely reach this.
 // SPDX-License-Identifier: MIT
 #include "fuzz.h"
 
@@ -20,7 +20,7 @@ std::string number(supply &s) {
     return one_of(s, numbers);
 }
 
-/// Mostly good values, else any.
+/// Mostly valid values, otherwise any.
 std::string value(supply &s, const char *good) {
     return take_byte(&s) % 8 != 0 ? good : number(s);
 }

@@ -5,8 +5,8 @@
 #include "contact/mesh_build.h"
 #include "contact/mesh_query.h"
 
-/* The square of the distance from p to a triangle, by its plane where p stands over it, else by its edges: not how the
- * library does it. */
+/* The square of the distance from p to a triangle, by its plane if p is above it, otherwise by its edges: another
+ * method than the library's. */
 static double square_to_segment(const double p[3], const double a[3], const double b[3]) {
     double along = 0.0;
     double length2 = 0.0;

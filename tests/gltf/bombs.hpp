@@ -1,4 +1,4 @@
-// Small glTF files that ask for much: each of about 1 MB or less, none of them against the format.
+// Small glTF files that demand much: each of about 1 MB or less, and valid.
 // SPDX-License-Identifier: MIT
 #ifndef KNURL_TESTS_GLTF_BOMBS_HPP
 #define KNURL_TESTS_GLTF_BOMBS_HPP
@@ -23,7 +23,7 @@ inline std::string listed(const std::string &item, size_t count) {
     return repeated(item + ",", count - 1) + item;
 }
 
-/** Nodes that show mesh 0, each scaled a little otherwise where `scaled`. */
+/** Nodes that show mesh 0, each with a slightly different scale if `scaled`. */
 inline std::string showing(size_t count, bool scaled) {
     std::string nodes;
     for (size_t i = 0; i < count; ++i)
@@ -111,7 +111,7 @@ struct Bomb {
     std::string bytes;
 };
 
-/** What many nodes or primitives show. */
+/** Meshes that many nodes or primitives show. */
 inline void add_crowds(std::vector<Bomb> &all) {
     File file = sparse_mesh(size_t{1} << 22U);
     file.nodes = showing(4000, false);
@@ -150,7 +150,7 @@ inline void add_crowds(std::vector<Bomb> &all) {
     all.push_back({"3,000 primitives with a triangle each out of 100,000 vertices", parts.glb()});
 }
 
-/** Long lists of what nothing needs, and lists that just fit. */
+/** Long lists of unused objects, and lists that just fit. */
 inline void add_lists(std::vector<Bomb> &all) {
     File file = quad();
     file.accessors += repeated(",0", 500000);

@@ -35,7 +35,7 @@ struct File {
     std::string materials = "{" + tag() + "}";
     std::string views;
     std::string accessors;
-    std::string buffers; ///< made from bin where it is empty
+    std::string buffers; ///< made from bin if empty
     std::string more;    ///< further members of the root: ,"scene":0
     std::string asset = R"("asset":{"version":"2.0"})";
     std::string bin;
@@ -128,7 +128,7 @@ inline void append_word(std::string &bytes, uint64_t value) {
         bytes += static_cast<char>(value >> (8 * i) & 255U);
 }
 
-/** A .glb from its two parts; no BIN chunk where bin is empty. */
+/** A .glb from its two parts; no BIN chunk if bin is empty. */
 inline std::string glb(std::string json, std::string bin) {
     json.resize((json.size() + 3) / 4 * 4, ' ');
     bin.resize((bin.size() + 3) / 4 * 4);
@@ -185,7 +185,7 @@ inline File plain(const std::vector<float> &positions, const std::string &primit
     return plain(std::move(file), index, primitive_more, axis);
 }
 
-/** A scene and what was loaded into it. */
+/** A scene with its loaded surfaces. */
 class Loaded {
   public:
     Loaded() {
@@ -230,7 +230,7 @@ class Loaded {
     knurl_gltf_report report{};
 };
 
-/** The latest message: one line that starts with `file` and holds each part. */
+/** The last message: one line that starts with `file` and contains each part. */
 inline void assert_message(const char *file, std::initializer_list<const char *> parts) {
     const std::string message = knurl_error_message();
     if (message.rfind(std::string(file) + ": ", 0) != 0)

@@ -1,6 +1,5 @@
-// Scenes of bad geometry, each as a glTF file and as mesh descriptions: whatever is pressed is held by a finite force
-// that its depth bounds, or the load says what is wrong. One row of `scenes` a scene.
-// SPDX-License-Identifier: MIT
+// Scenes of bad geometry, each as a glTF file and as mesh descriptions: every press is held by a finite force that its
+// depth bounds, or the load reports the fault. One row of `scenes` per scene. SPDX-License-Identifier: MIT
 #include "builder.hpp"
 #include "support/close.h"
 
@@ -35,7 +34,7 @@ struct Part {
     Part &quad(const Point &a, const Point &b, const Point &c, const Point &d) {
         return triangle(a, b, c).triangle(a, c, d);
     }
-    // A parallelogram from `at`, in strips along u; its front is where u x v points.
+    // A parallelogram from `at`, in strips along u; its front is towards u x v.
     Part &strips(const Point &at, const Point &u, const Point &v, int count) {
         const auto point = [&](int i, double j) {
             Point p = at;
@@ -47,7 +46,7 @@ struct Part {
             quad(point(i, 0), point(i + 1, 0), point(i + 1, 1), point(i, 1));
         return *this;
     }
-    // Each `every`-th triangle faces the other way.
+    // Each `every`-th triangle is reversed.
     Part &turn_over(size_t first, size_t every) {
         for (size_t i = first; i < count(); i += every)
             for (size_t k = 0; k < 3; ++k)
@@ -99,7 +98,7 @@ Part floor_in_strips(int count) { // z = 0 where x > 0
     return Part().strips({0, SIZE, 0}, {0, -2 * SIZE, 0}, {SIZE, 0, 0}, count);
 }
 
-Part wall_in_strips(int count, double from = 0.0) { // x = 0 where z > from
+Part wall_in_strips(int count, double from = 0.0) { // x = 0, z > from
     return Part().strips({0, -SIZE, from}, {0, 2 * SIZE, 0}, {0, 0, SIZE - from}, count);
 }
 
@@ -130,7 +129,7 @@ Part speck() {
     return Part().triangle({1e-3, 1e-3, 0}, {1e-3, 1e-3 + 1e-33, 0}, {1e-3, 1e-3, 1e-33});
 }
 
-// --- how deep a HIP is at least: m inside of what a scene stands for ---
+// --- minimum depth of a HIP: m inside of the true shape ---
 
 double below(const Point &p) {
     return -p[2];
@@ -138,7 +137,7 @@ double below(const Point &p) {
 double below_20um(const Point &p) {
     return -p[2] - 20e-6;
 }
-double below_1mm(const Point &p) { // no point of the sheet is lower, so what holds the HIP is as far away at least
+double below_1mm(const Point &p) { // no point of the sheet is lower, so the HIP's contact is at least as far away
     return -p[2] - 1e-3;
 }
 double in_corner(const Point &p) { // outside is x > 0 and z > 0
@@ -148,7 +147,7 @@ double in_groove(const Point &p) {
     return (std::fabs(p[0]) - p[2]) * std::sqrt(0.5);
 }
 
-// Strokes begin and end at the top of this box, where nothing is, and go about in all of it.
+// Strokes start and end at the empty top of this box, and move in all of it.
 struct Box {
     Point low, high;
 };
@@ -162,7 +161,7 @@ struct Scene {
     double (*depth)(const Point &);
     const Box *where;
     uint32_t turned = 0;        // triangles of the first part
-    const char *word = nullptr; // in the message where it is refused
+    const char *word = nullptr; // in the message if it is refused
 };
 
 constexpr Scene scenes[] = {
@@ -360,8 +359,7 @@ TEST(mixed_winding_is_warned_of) {
     }
 }
 
-// Where a mesh touches itself, halves of the same area stay as they are. Only where both sides are felt this is no
-// fault.
+// If a mesh touches itself, halves of the same area are not changed. This is a fault unless both sides are felt.
 TEST(mixed_winding_that_stays_is_warned_of) {
     Part halves = sheet(20e-6).turn_over(0, 2).split_edges(272, 512, 0.0);
     for (const bool double_sided : {false, true}) {
@@ -382,7 +380,7 @@ TEST(parts_that_touch_are_not_warned_of) {
     }
 }
 
-// A Moebius strip has one side only: it is held from both sides, all along and over the place where its ends meet.
+// A Moebius strip has one side only: it is held from both sides, along all of it and over the joint of its ends.
 TEST(a_strip_with_one_side_is_held_from_both) {
     constexpr int N = 60;
     constexpr double RADIUS = 0.015;

@@ -1,5 +1,5 @@
-// What a file of a megabyte may cost whoever looks at it: the tool's time and memory, and the limit that is met by
-// name. SPDX-License-Identifier: MIT
+// The cost of a file of a megabyte: the tool's time and memory, and the name of the reached limit.
+// SPDX-License-Identifier: MIT
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -26,7 +26,7 @@ struct Cost {
     std::string message;
 };
 
-/// `knurl inspect`, another one where KNURL_BOMB_TOOL names it.
+/// `knurl inspect`, or the tool in KNURL_BOMB_TOOL.
 Cost inspect(const std::string &path) {
     const char *other = std::getenv("KNURL_BOMB_TOOL");
     const std::string said = path + ".err";
@@ -38,7 +38,7 @@ Cost inspect(const std::string &path) {
         if (is_measured)
             (void)setrlimit(RLIMIT_AS, &room);
         const bool reopened = std::freopen("/dev/null", "w", stdout) && std::freopen(said.c_str(), "w", stderr);
-        if (reopened) // NOLINTNEXTLINE(clang-analyzer-optin.taint.GenericTaint): whoever runs the test names it
+        if (reopened) // NOLINTNEXTLINE(clang-analyzer-optin.taint.GenericTaint): named by the user who runs the test
             execl(other ? other : KNURL_TEST_TOOL, "knurl", "inspect", path.c_str(), static_cast<char *>(nullptr));
         _exit(127);
     }

@@ -1,4 +1,4 @@
-// What a load may cost, and who may stop it: limits by name, progress, one shape for all nodes that show it.
+// Budgets of a load, and stopping it: limits by name, progress, one shape for all nodes that show it.
 // SPDX-License-Identifier: MIT
 #include <cmath>
 
@@ -79,7 +79,7 @@ TEST(budgets_out_of_their_ranges_are_refused) {
 
 struct Watch {
     int calls = 0;
-    int stop_at = 0; ///< this call ends the load; 0: none does
+    int stop_at = 0; ///< this call ends the load; 0: no call
     double done = 0.0;
 };
 

@@ -1,5 +1,5 @@
-// Real and hostile files that no one here wrote, as they are and again with a tag on every mesh, so that their geometry
-// is read. They stand beside the repository (KNURL_CORPUS); without them this program skips and says so.
+// Real and hostile files of others, unchanged and again with a tag on every mesh, so that their geometry is read. They
+// are outside of the repository (KNURL_CORPUS); without them this program is skipped with a message.
 // SPDX-License-Identifier: MIT
 #include <nlohmann/json.hpp> // before cmocka, whose macros are called fail and skip
 
@@ -36,8 +36,8 @@ std::string bytes_of(const fs::path &path) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// The same file with a tag and an axis on every mesh; "" where it is too broken for that. show: and with a node for
-/// each of them and no scene, for most of the validator's files show none.
+/// The same file with a tag and an axis on every mesh; "" if it is too broken for that. show: also with a node for each
+/// of them and no scene, because most of the validator's files show no mesh.
 std::string tagged(const std::string &bytes, bool show) {
     const bool binary = bytes.compare(0, 4, "glTF") == 0;
     uint32_t length = 0;

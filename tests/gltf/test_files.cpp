@@ -12,7 +12,7 @@ using namespace builder;
 
 namespace {
 
-/// A fresh folder with a folder `in` inside, in which the glTF files stand.
+/// A new folder with a folder `in` for the glTF files.
 class Folder {
   public:
     Folder() : root(fs::path(KNURL_TEST_TMP) / "gltf_files") {

@@ -187,7 +187,7 @@ TEST(containers_that_lie) {
     assert_fails(builder::glb("", "1234"), KNURL_ERROR_FORMAT, {"JSON: parse error"});
     assert_fails(with_word(16, 0), KNURL_ERROR_FORMAT, {".glb chunk 0: expected the type JSON"});
     assert_int_equal(Loaded(glb + "more than the header says").report.surfaces, 1);
-    // A chunk of a type that nobody knows is passed over (glTF 2.0, 4.4.3.1).
+    // A chunk of an unknown type is ignored (glTF 2.0, 4.4.3.1).
     const size_t bin = glb.find(std::string("BIN\0", 4)) - 4;
     std::string more = glb;
     more.insert(bin, std::string("\4\0\0\0ABCDxxxx", 12));

@@ -1,4 +1,4 @@
-// What is deep, long or large: small stacks, chains, many surfaces, and the time that a real size takes.
+// Deep, long and large files: small stacks, chains, many surfaces, and the time for a real size.
 // SPDX-License-Identifier: MIT
 #include <cmath>
 #include <cstdio>
@@ -17,7 +17,7 @@ constexpr bool is_measured = false;
 constexpr size_t small_stack = size_t{256} * 1024; // the sanitizers' frames are several times as large
 #else
 constexpr bool is_measured = true;
-constexpr size_t small_stack = size_t{128} * 1024; // what gltf.h promises to do with
+constexpr size_t small_stack = size_t{128} * 1024; // the promise in gltf.h
 #endif
 
 std::string repeated(const std::string &text, size_t count) {
@@ -27,7 +27,7 @@ std::string repeated(const std::string &text, size_t count) {
     return all;
 }
 
-/// Extras so that the innermost of them lies `depth` objects deep: root, materials, material, extras, ...
+/// Extras with the innermost `depth` objects deep: root, materials, material, extras, ...
 std::string nested(size_t depth) {
     const size_t inner = depth - 3;
     return R"({"x":)" + repeated(R"({"x":)", inner - 2) + "{}" + repeated("}", inner - 1);

@@ -1,4 +1,4 @@
-// Which nodes are shown, where they stand, what they are called. Expected values by hand from glTF 2.0, 3.5.
+// Nodes that are shown, their poses and names. Expected values by hand from glTF 2.0, 3.5.
 // SPDX-License-Identifier: MIT
 #include "gltf/builder.hpp"
 
@@ -20,7 +20,7 @@ knurl_surface_info placed(File file, const std::string &node) {
 
 TEST(translation_rotation_scale_chain) {
     File file = triangle();
-    // A quarter turn about z: x' = 1 - y, y' = x; the child stands at x = 0.5.
+    // A quarter turn about z: x' = 1 - y, y' = x; the child is at x = 0.5.
     file.nodes = R"({"translation":[1,0,0],"rotation":[0,0,0.70710678118654752,0.70710678118654752],"children":[1]},
                     {"mesh":0,"translation":[0.5,0,0],"scale":[1,1,1]})";
     const knurl_surface_info info = Loaded(file.glb()).info();

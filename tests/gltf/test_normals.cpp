@@ -1,4 +1,4 @@
-// NORMAL: felt as the smooth surface, unless a tag says otherwise, whatever a node's transform.
+// NORMAL: felt as the smooth surface with any node transform, unless a tag disables it.
 // SPDX-License-Identifier: MIT
 #include "gltf/builder.hpp"
 

@@ -1,5 +1,5 @@
-/* Bandlimited against another kind of computation: an ideal square wave along a random way, simulated finely and
- * resampled at the ticks by a linear filter that passes to 0.38 f_h and nothing from f_h/2 on. KNURL_LONG: 1e5 ways.
+/* Bandlimited against another kind of computation: an ideal square wave along a random path, simulated finely and
+ * resampled at the ticks by a linear filter that passes to 0.38 f_h and nothing from f_h/2 on. KNURL_LONG: 1e5 paths.
  * SPDX-License-Identifier: MIT */
 #include "support/bandlimited.h"
 
@@ -10,7 +10,7 @@
 #define TAPS   (2 * REACH * FINE)
 #define PI     3.141592653589793
 #define RATE   1000.0
-#define WITHIN 0.006L /* A: the filter is cut off at its REACH, and a way's speed changes within it */
+#define WITHIN 0.006L /* A: the filter is truncated at its REACH, and a path's speed changes within it */
 
 static double taps[TAPS];
 
@@ -38,7 +38,7 @@ static double area(double p) {
     return fabs(q - floor(q + 0.5));
 }
 
-/* A way in cycles along the axis that crosses the most: start, cycles a tick, and their change from tick to tick. */
+/* A path in cycles along the axis that crosses the most: start, cycles per tick, and their change per tick. */
 typedef struct way {
     double start, d, change;
 } way;
@@ -58,7 +58,8 @@ static double resample(const way *w) {
     return height;
 }
 
-/* Lines along x or y, and grids that are crossed more often along one axis; either way, from the tick at -3 to 0. */
+/* Lines along x or y, and grids that are crossed more often along one axis; in either direction, from the tick at -3 to
+ * 0. */
 static void check_way(uint64_t *seed) {
     const int axis = random_bits(seed) >> 20 & 1, grid = random_bits(seed) >> 20 & 1;
     const double sign = random_bits(seed) >> 20 & 1 ? 1.0 : -1.0;

@@ -23,7 +23,7 @@ TEST(steady_scans_are_the_formulas_of_its_docstring) {
     }
 }
 
-/* The spectrum of a scan of whole cycles: lines at the ridges' odd multiples below f_h/2, and nothing else. */
+/* The spectrum of a scan of whole cycles: lines at the ridges' odd multiples below f_h/2, and no others. */
 TEST(no_tone_but_the_ridges_own_is_played_from_a_twelfth_of_the_update_rate_on) {
     enum { TICKS = 500 };
     for (int cycles = 42; cycles < TICKS / 2; cycles++) {
@@ -69,7 +69,7 @@ TEST(a_hip_at_rest_feels_the_height_of_its_place) {
     }
 }
 
-/* Also after a rest on it, which says nothing of a direction. */
+/* Also after a rest on it, which has no direction. */
 TEST(ridges_along_y_are_at_its_positions) {
     band_scan s = band_on(0.0, FS, RATE, 0.0);
     for (int k = 0; k < 50; k++) {
@@ -122,7 +122,7 @@ TEST(along_an_axis_a_grid_is_a_line) {
     }
 }
 
-/* Random walks over random grids: in phase, a tick moves on by Eq. 12's cycles, also where the other axis takes over
+/* Random walks over random grids: in phase, a tick advances by Eq. 12's cycles, also when the other axis takes over
  * (at 1.1 times as many), so that by cos's symmetry the height is that of a phase d farther on. */
 TEST(on_a_grid_the_phase_moves_on_by_the_cycles_of_the_axis_that_crosses_the_most) {
     uint64_t seed = 5;

@@ -1,5 +1,5 @@
-/* Gratings S1 and S2, and what all methods share, against Eqs. 10 to 13, Algorithm 7 and the paper's last table.
- * SPDX-License-Identifier: MIT */
+/* Gratings S1 and S2, and the parts shared by all methods, against Eqs. 10 to 13, Algorithm 7 and the paper's last
+ * table. SPDX-License-Identifier: MIT */
 #include "support/close.h"
 #include "support/paper.h"
 
@@ -21,7 +21,7 @@ static knurl_grating make_grating(int32_t method, double fsx, double fsy, double
     return grating;
 }
 
-/* One tick at a velocity; the position is that of S2, which does not look at it. */
+/* One tick at a velocity; the position does not matter for S2. */
 static knurl_grating_output step(const knurl_grating *grating, knurl_grating_state *state, double vx, double vy) {
     const double velocity[2] = {vx, vy};
     knurl_grating_output out;
@@ -152,7 +152,7 @@ TEST(s2_thresholds_are_decided_on_ticks_at_every_rate) {
 TEST(s2_at_400_hz_plays_the_six_tick_mix_to_its_end) {
     const knurl_grating grating = make_grating(KNURL_METHOD_S2, 1600.0, 0.0, 1.0, 1000.0);
     knurl_grating_state s = {0};
-    /* Algorithm 7 as printed asks again with Ta = 6 and plays +++--- from the second tick on */
+    /* Algorithm 7 as printed is evaluated again with Ta = 6 and plays +++--- from the second tick on */
     for (int64_t k = 0; k < 6; k++) {
         const double later[] = {0.25, 0.25, 0.02, 0.0, 0.2, 0.3}; /* 400 Hz at the start; the rest must not matter */
         CHECK_CLOSE(step(&grating, &s, later[k], 0.0).height, paper_mixed((uint64_t)k, 1.0L), 1e-15L);
@@ -193,7 +193,7 @@ TEST(s2_starts_no_event_below_one_millimetre_a_second) {
 }
 
 /* Ridges of 20 um: an event at 1 mm/s is 20 ticks. A speed that flickers by 10 % about the deadband starts and stops
- * events where positions are exact, as Algorithm 7 has it; where they are quantised it goes on until below half of it.
+ * events if positions are exact, as in Algorithm 7; if they are quantised it continues until below half of it.
  */
 TEST(s2_does_not_chatter_about_its_deadband_where_positions_are_quantised) {
     static const double quanta[2] = {0.0, 0.055e-3};
@@ -203,7 +203,7 @@ TEST(s2_does_not_chatter_about_its_deadband_where_positions_are_quantised) {
         int stops = 0;
         int64_t last = KNURL_NO_EVENT;
         grating.resolution = quanta[i];
-        assert_true(step(&grating, &s, 0.0009, 0.0).event == KNURL_NO_EVENT); /* never begun below it */
+        assert_true(step(&grating, &s, 0.0009, 0.0).event == KNURL_NO_EVENT); /* never started below it */
         for (int k = 0; k < 2000; k++) {
             const knurl_grating_output out = step(&grating, &s, k / 13 % 2 ? 0.0009 : 0.0011, 0.0);
             stops += last != KNURL_NO_EVENT && out.event == KNURL_NO_EVENT;
@@ -214,7 +214,7 @@ TEST(s2_does_not_chatter_about_its_deadband_where_positions_are_quantised) {
             last = step(&grating, &s, 0.00049, 0.0).event;
         }
         assert_true(last == KNURL_NO_EVENT);
-        assert_true(step(&grating, &s, 0.0009, 0.0).event == KNURL_NO_EVENT); /* it has to begin anew */
+        assert_true(step(&grating, &s, 0.0009, 0.0).event == KNURL_NO_EVENT); /* it must start again */
     }
 }
 

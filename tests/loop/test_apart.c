@@ -1,5 +1,5 @@
-/* What [game thread] allows (knurl/base.h): threads with scenes, devices and loops of their own need no order; those
- * that share them take turns, whichever thread it is. SPDX-License-Identifier: MIT */
+/* The rules of [game thread] (knurl/base.h): threads with their own scenes, devices and loops need no order; threads
+ * that share them take turns, in any order. SPDX-License-Identifier: MIT */
 #include "support/scenes.h"
 
 #include "base/system.h"

@@ -5,9 +5,9 @@
 
 #include <stdlib.h>
 
-static rig r; /* 400 KiB; set up anew by each test */
+static rig r; /* 400 KiB; reset by each test */
 
-/* After a test that failed too: no thread goes on with the rig that the next test sets up. */
+/* Also after a failed test: no thread may still use the rig that the next test resets. */
 static int end_rig(void **state) {
     (void)state;
     rig_destroy(&r);
@@ -23,7 +23,7 @@ TEST_WITH(deadlines_are_absolute_and_do_not_drift, NULL, end_rig) {
         r.desc.update_rate_hz = rates[i];
         r.desc.tick_limit = 6000;
         r.desc.ramp_s = 0.0;
-        r.busy = (int64_t)(0.3e9 / rates[i]); /* what a tick takes must not shift the next one */
+        r.busy = (int64_t)(0.3e9 / rates[i]); /* a tick's duration must not shift the next one */
         const int64_t start = r.now;
         rig_create(&r);
         rig_run(&r);
@@ -210,14 +210,14 @@ TEST_WITH(at_the_end_the_force_goes_to_zero_by_a_straight_ramp, NULL, end_rig) {
             CHECK_CLOSE(r.written[k][1], 1.0 - (double)(k - 29) / (double)(r.writes - 30), 1e-12);
         }
         CHECK_SAME(r.written[r.writes - 1][1], 0.0L);
-        assert_int_equal(r.calls, 30); /* nobody is asked for a force any more */
+        assert_int_equal(r.calls, 30); /* the callback is not called any more */
         assert_int_equal(rig_stats(&r).ticks, 30);
         rig_check_halted(&r);
         rig_destroy(&r);
     }
 }
 
-/* "s from full force to none": what the motors cannot play is no part of the way. */
+/* "s from full force to none": force beyond the motors' limit does not count. */
 TEST_WITH(the_ramp_begins_at_what_was_played_not_at_what_was_asked_for, NULL, end_rig) {
     rig_init(&r);
     r.force[1] = 40.0; /* of 2 N */

@@ -1,4 +1,4 @@
-/* What a game adds to its surfaces' forces: its gain, a force, a vibration; and what bounds them.
+/* A game's additions to the surfaces' forces: gain, force, vibration; and their bounds.
  * SPDX-License-Identifier: MIT */
 #include "support/bench.h"
 

@@ -1,4 +1,4 @@
-/* A process that forks while a loop runs: its child has the memory, and none of the threads.
+/* A process that forks while a loop runs: its child has the memory, but no threads.
  * SPDX-License-Identifier: MIT */
 #include "support/close.h"
 #include "support/idle_device.h"

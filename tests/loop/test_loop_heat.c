@@ -1,4 +1,4 @@
-/* How warm motors are is their device's: it goes on from loop to loop and cools by the clock in between; and a loop can
+/* Motor heat belongs to the device: it continues from loop to loop and cools by the clock in between; and a loop can
  * pause. By stepping and by the test's own clock. SPDX-License-Identifier: MIT */
 #include "support/bench.h"
 
@@ -146,14 +146,14 @@ TEST_WITH(periods_that_a_thread_missed_cool_as_well, NULL, end_bench) {
     CHECK_CLOSE(heat(), warm * exp(-60.1 / 60.0), 2e-5);
 }
 
-/* Nobody zeroed the force meanwhile: a clock of the caller's has no watchdog. */
+/* The force was not zeroed meanwhile: a caller's clock has no watchdog. */
 TEST_WITH(periods_that_a_thread_missed_while_it_pressed_warm, NULL, end_bench) {
     bench_open(&b, 0.005); /* 2 N */
     run_with_gap(5.0);
     CHECK_CLOSE(heat(), 2.0 * 2.0 / (0.88 * 0.88) * (1.0 - exp(-5.1 / 60.0)), 0.005);
 }
 
-/* The motors are not what a HIP was told about them. */
+/* The motors differ from a HIP's configuration. */
 TEST_WITH(what_a_hip_was_told_of_its_motors_is_no_matter_to_them, NULL, end_bench) {
     const struct {
         double continuous;

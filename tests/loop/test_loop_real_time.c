@@ -1,4 +1,4 @@
-/* The loop by the system's clock, which nothing else here waits for: the other tests of threads make time themselves.
+/* The loop by the system's clock, which no other test here uses: they simulate time.
  * SPDX-License-Identifier: MIT */
 #include "support/close.h"
 #include "support/rig.h"

@@ -1,12 +1,12 @@
-/* The loop with a scene: what it makes of its description, of a HIP's, of a device's; that stepping and a thread give
- * the same forces; what a recorder sees. By the tests' own clock. SPDX-License-Identifier: MIT */
+/* The loop with a scene: settings from its description, a HIP's and a device's; equal forces by stepping and by a
+ * thread; a recorder's output. By the tests' own clock. SPDX-License-Identifier: MIT */
 #include "support/close.h"
 #include "support/rig.h"
 #include "support/scenes.h"
 
-static rig r; /* set up anew by each test */
+static rig r; /* reset by each test */
 
-/* After a test that failed too: no thread goes on with the rig that the next test sets up. */
+/* Also after a failed test: no thread may still use the rig that the next test resets. */
 static int end_rig(void **state) {
     (void)state;
     rig_destroy(&r);
@@ -144,7 +144,7 @@ TEST_WITH(a_recorder_delays_no_force, NULL, end_rig) {
     assert_int_equal(late, 0); /* each tick's force had been written before */
 }
 
-/* After a halt the force climbs back over the ramp, and what is recorded climbs with it. */
+/* After a halt the force ramps up, and so does the recorded one. */
 TEST_WITH(after_a_halt_the_force_climbs_back_over_the_ramp, NULL, end_rig) {
     rig_init(&r);
     rig_create(&r);
@@ -302,7 +302,7 @@ TEST_WITH(the_hips_rate_must_be_the_loops_where_it_is_given, NULL, end_rig) {
     rig_destroy(&r);
 }
 
-/* K z = 400 N/m x 20 mm = 8 N: shortened to what the device can do, or to what the HIP was configured for. */
+/* K z = 400 N/m x 20 mm = 8 N: limited to the device's maximum, or to the HIP's. */
 TEST_WITH(a_hip_takes_its_force_limit_from_its_device_unless_it_has_one, NULL, end_rig) {
     static const double limits[][2] = {{KNURL_DEFAULT, 2.0}, {0.5, 0.5}}; /* given, expected */
     for (size_t i = 0; i < COUNT_OF(limits); i++) {

@@ -1,5 +1,5 @@
-/* What a loop sends is what its scene and its recorder tell: with the heartbeat lost, after a halt, at every end. What
- * was not sent warms no motor. By stepping: nothing here waits for time. SPDX-License-Identifier: MIT */
+/* The scene and the recorder report the force that a loop sends: with the heartbeat lost, after a halt, at every end. A
+ * force that was not sent warms no motor. By stepping, without waiting. SPDX-License-Identifier: MIT */
 #include "support/bench.h"
 
 #include "base/vec3.h"
@@ -15,7 +15,7 @@ static int end_bench(void **state) {
     return 0;
 }
 
-/* What the recorder and the scene were told of one tick is what went to the driver. */
+/* The recorder's and the scene's force of a tick is the one sent to the driver. */
 static void check_told(const bench *from) {
     const knurl_tick_output now = bench_tick(from);
     const double *written = from->written[(from->writes - 1) % BENCH_ROOM];
@@ -51,7 +51,7 @@ TEST_WITH(without_a_heartbeat_the_scene_tells_no_force_and_its_motors_cool, NULL
                   vec3_length(bench_tick(&b).force), bench_counts(&b).heat);
     check_told(&b);
     CHECK_CLOSE(bench_counts(&b).heat, warm * exp(-1.0), 1e-9);
-    assert_int_equal(bench_tick(&b).contacts, 1); /* where the HIP is goes on being told */
+    assert_int_equal(bench_tick(&b).contacts, 1); /* the HIP's position is still reported */
     CHECK_CLOSE(bench_tick(&b).depth, DEPTH, 1e-6);
 }
 
@@ -83,7 +83,7 @@ TEST_WITH(after_a_halt_what_is_told_climbs_with_what_is_sent, NULL, end_bench) {
     CHECK_CLOSE(written_now(&b), 3.3, 1e-12);
 }
 
-/* Whatever the end: after it nothing is told to be sent. */
+/* After any end, the reported force is zero. */
 TEST_WITH(after_the_end_the_scene_tells_no_force, NULL, end_bench) {
     enum { STOPPED, LIMIT, NO_RAMP, DESTROYED, LOST, LOST_IN_RAMP, ENDS };
     for (int end = 0; end < ENDS; end++) {
@@ -124,7 +124,7 @@ TEST_WITH(the_ramp_at_the_end_is_told_step_by_step_and_is_no_tick, NULL, end_ben
     }
 }
 
-/* A HIP may not ask for more than its device has. */
+/* A HIP's maximum is at most its device's. */
 TEST_WITH(what_is_told_is_never_more_than_the_device_can_play, NULL, end_bench) {
     knurl_hip_desc hip;
     knurl_workspace workspace;
@@ -142,7 +142,7 @@ TEST_WITH(what_is_told_is_never_more_than_the_device_can_play, NULL, end_bench) 
     CHECK_CLOSE(written_now(&b), 3.3, 1e-12);
 }
 
-/* To the bit, where a limited force has three components: down to 24 mm in a wall that is turned about x and z. */
+/* To the bit, if a limited force has three components: down to 24 mm in a wall that is turned about x and z. */
 TEST_WITH(a_force_that_was_limited_is_sent_as_it_is_told, NULL, end_bench) {
     static const double here[3] = {0.0, 0.0, 0.0};
     for (int i = 1; i <= 20; i++) {

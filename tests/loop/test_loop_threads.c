@@ -8,9 +8,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-static rig r; /* set up anew by each test */
+static rig r; /* reset by each test */
 
-/* After a test that failed too: no thread goes on with the rig that the next test sets up. */
+/* Also after a failed test: no thread may still use the rig that the next test resets. */
 static int end_rig(void **state) {
     (void)state;
     rig_destroy(&r);
@@ -52,7 +52,7 @@ static knurl_thread *start_a_stop(void) {
 
 /* --- memory --- */
 
-/* kB of this process that are locked into RAM, or -1 where the system does not tell. */
+/* kB of this process that are locked into RAM, or -1 if unknown. */
 static long locked_kb(void) {
     char line[256];
     long kb = -1;
@@ -68,7 +68,7 @@ static long locked_kb(void) {
     return kb;
 }
 
-/* First of all tests: what an earlier one left locked would hide it. */
+/* The first test: memory that an earlier one left locked would hide a fault. */
 TEST_WITH(what_was_locked_is_unlocked_when_it_is_given_back, NULL, end_rig) {
     const long before = locked_kb();
     for (int turn = 0; turn < 5; turn++) {
@@ -107,7 +107,7 @@ TEST_WITH(half_a_second_at_1_khz_is_500_ticks_and_the_ramp, NULL, end_rig) {
     rig_create(&r);
     const double start = seconds_now();
     rig_run(&r);
-    CHECK_CLOSE(seconds_now() - start, 0.52, 0.0005 + 1e-9); /* knurl_loop_wait() looks each half millisecond */
+    CHECK_CLOSE(seconds_now() - start, 0.52, 0.0005 + 1e-9); /* knurl_loop_wait() polls every half millisecond */
     const knurl_loop_stats stats = rig_stats(&r);
     assert_int_equal(stats.state, KNURL_LOOP_DONE);
     assert_int_equal(stats.ticks, 500);
@@ -277,7 +277,7 @@ TEST_WITH(while_a_callback_stalls_the_watchdog_zeroes_the_force_and_it_comes_bac
     assert_int_equal(r.seen, 1); /* zeroed while the callback stood */
     assert_true(rig_stats(&r).watchdog_trips >= 1);
     assert_int_equal(rig_stats(&r).ticks, 600);
-    CHECK_SAME(r.written[100][1], 0.0L); /* what was computed in the stall is not played */
+    CHECK_SAME(r.written[100][1], 0.0L); /* a force computed in the stall is not played */
     double best = 0.0;
     for (int tick = 101; tick < 600; tick++) { /* a machine under load may set it off again */
         assert_true(r.written[tick][1] - r.written[tick - 1][1] <= 1.0 / 20.0 + 1e-12);

@@ -1,5 +1,5 @@
-/* What a device is sent, in its own axes: when its workspace turns, when it is halted after a squeeze, by a callback.
- * By stepping: nothing here waits for time. SPDX-License-Identifier: MIT */
+/* Forces sent to a device, in its own axes: with a turning workspace, after a squeeze and a halt, from a callback. By
+ * stepping, without waiting. SPDX-License-Identifier: MIT */
 #include "support/bench.h"
 
 #include "base/vec3.h"
@@ -24,7 +24,7 @@ static void step(uint64_t ticks) {
     assert_int_equal(knurl_loop_step(b.loop, ticks), KNURL_OK);
 }
 
-/* N: how far the latest force is from the one before it, made as short. */
+/* N: distance of the last force from the previous one, shortened to its length. */
 static double change(void) {
     const double *now = written(0);
     const double *before = written(1);
@@ -76,7 +76,7 @@ TEST_WITH(a_games_force_turns_round_at_the_slew_limit, NULL, end_bench) {
     }
 }
 
-/* Held, or pressed into the wall, which the turn goes through. A snap turn of an engine takes a frame. */
+/* Held, or pressed into the wall, during the turn. A snap turn of an engine takes a frame. */
 TEST_WITH(a_force_turns_no_faster_than_the_slew_limit_however_short_the_frame, NULL, end_bench) {
     static const double frames[] = {0.0, 0.001, 0.002, 0.004, 0.008, 0.016};
     static const double force[3] = {3.3, 0.0, 0.0};
@@ -127,7 +127,7 @@ static void place_lid(double height, double seconds) {
     assert_int_equal(knurl_scene_set_transform(b.scene, lid, at, over, seconds), KNURL_OK);
 }
 
-/* A loop whose lid has come down at 0.1 m/s until it squeezed the HIP, which stands 4 mm over the wall. pause_at: the
+/* A loop whose lid has come down at 0.1 m/s until it squeezed the HIP, 4 mm above the wall. pause_at: the
  * tick at which it pauses; -1: never. Returns the tick of the squeeze. */
 static int squeeze(double ramp_s, int pause_at) {
     surface_parts parts = surface_plane();

@@ -1,5 +1,5 @@
-/* Two real loops, each on a fake device of its own, tick one scene while another thread edits it a thousand times a
- * second: what a game does. KNURL_STRESS_SECONDS sets how long. SPDX-License-Identifier: MIT */
+/* Two real loops, each on its own fake device, tick one scene while another thread, like a game, edits it a thousand
+ * times per second. KNURL_STRESS_SECONDS: duration. SPDX-License-Identifier: MIT */
 #include "support/fake.h"
 #include "support/geometry.h"
 #include "support/ledger.h"
@@ -63,7 +63,7 @@ static knurl_loop *start_loop(knurl_scene *scene, uint32_t hip, knurl_device *de
     return loop;
 }
 
-/* The latest tick feels the newest material and nothing else: F = K (H + depth), without friction. */
+/* The last tick feels the newest material only: F = K (H + depth), without friction. */
 static void check_felt(const knurl_scene *scene, uint32_t hip, double stiffness) {
     knurl_tick_output out;
     knurl_hip_counts counts;

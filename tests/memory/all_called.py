@@ -1,4 +1,4 @@
-"""Every public function is called with memory that runs out: its name stands in one of the tests of this folder.
+"""Every public function is called with memory that runs out: its name is in one of the tests in this folder.
 
 usage: all_called.py REPOSITORY
 """

@@ -101,7 +101,7 @@ int posix_memalign(void **memory, size_t alignment, size_t size) {
 
 /* Shared with the parent. */
 static struct report {
-    long at;     /* the request that is refused in the run that is going on; 0: none */
+    long at;     /* the allocation that fails in the present run; 0: no allocation */
     int all;     /* and all later ones */
     long needed; /* requests of a run that is refused nothing */
     long runs, errors, successes;
@@ -177,7 +177,7 @@ static long run_once(const failing_call *c, long at, int all) {
     return made;
 }
 
-/* Some memory is kept for the life of the process by who is called for the first time: a leak grows with each run. */
+/* Some memory is allocated once per process by the first call; a leak grows with each run. */
 static long run_and_weigh(const failing_call *c, long at, int all) {
     long made = 0;
     long grown = 0;
@@ -202,7 +202,7 @@ static long run_and_weigh(const failing_call *c, long at, int all) {
     return made;
 }
 
-/* A crash is the parent's to count, not cmocka's; no core, and nothing of what C++ says of its end. */
+/* The parent counts crashes, not cmocka; no core files, and no messages of the C++ runtime. */
 static void be_quiet(void) {
     static const int crashes[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGSYS};
     const struct rlimit none = {0, 0};
@@ -237,7 +237,7 @@ static void run_child(const failing_call *c) {
 
 /* --- all runs, in the parent --- */
 
-/* A crash ends a child; the next one goes on behind it. */
+/* A crash ends a child; the next child continues after it. */
 static void run_call(const failing_call *c) {
     int status = 0;
     memset(report, 0, sizeof *report);
@@ -295,7 +295,7 @@ void failing_run(const failing_call *calls, size_t count) {
     assert_int_equal(sum.crashes + sum.leaks + sum.changes + sum.other, 0);
 }
 
-/* Bytes of address space. Without stdio, which asks for memory. */
+/* Bytes of address space. Without stdio, which allocates memory. */
 static size_t space_in_use(void) {
     char text[4096];
     const int file = open("/proc/self/statm", O_RDONLY);

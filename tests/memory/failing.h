@@ -12,15 +12,16 @@
 
 #include <stdio.h>
 
-/** A call, and what stands around it. Only `call` is refused memory. All of it runs in a child process. */
+/** A call, its setup and checks. Allocations fail only in `call`. All of it runs in a child process. */
 typedef struct failing_call {
     const char *name;
     void (*prepare)(void);                  /* or null */
     knurl_result (*call)(void);             /* functions without a result: KNURL_OK */
     void (*finish)(void);                   /* gives everything back; or null */
-    void (*state)(char *text, size_t size); /* of what a failed call must leave as it was; or null */
+    void (*state)(char *text, size_t size); /* describes the state that a failed call must not change; or null */
     int is_wrong;                           /* 1: it fails with memory, too */
-    int may_leak; /* 1: it looks for USB devices by libraries that forget blocks then, such as libusb; these are counted
+    int may_leak; /* 1: it enumerates USB devices with libraries that leak blocks then, such as libusb; these are
+                   * counted
                    */
 } failing_call;
 
@@ -33,7 +34,7 @@ int failing_is_long(void);
 /** For `prepare`: ends the child process unless `result` is KNURL_OK, and the test fails. */
 void failing_need(knurl_result result);
 
-/** Runs `call` in a child process with so many bytes of address space beside what is in use; 1 if it came to its end.
+/** Runs `call` in a child process with `bytes` of address space beyond the used one; 1 if it ran to its end.
  */
 int failing_survives(knurl_result (*call)(void), size_t bytes);
 

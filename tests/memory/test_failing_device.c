@@ -1,5 +1,5 @@
 /* Devices and loops when memory runs out: over stand-ins of makers' libraries, over the real libusb, hidapi and
- * libwebsockets where these are installed. SPDX-License-Identifier: MIT */
+ * libwebsockets if these are installed. SPDX-License-Identifier: MIT */
 #define _POSIX_C_SOURCE 200809L /* setenv() */
 
 #include "device/port.h"
@@ -66,7 +66,7 @@ static knurl_result open_serial(void) {
 }
 
 static knurl_result open_inverse3(void) {
-    return open_uri("inverse3:?port=1"); /* nobody listens there */
+    return open_uri("inverse3:?port=1"); /* a port without a listener */
 }
 
 static knurl_result open_own(uint32_t blocking) {

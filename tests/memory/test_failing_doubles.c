@@ -1,5 +1,5 @@
-/* Drivers over the doubles of their devices when memory runs out: the whole of an opening, and a loop on what was
- * opened. SPDX-License-Identifier: MIT */
+/* Drivers over the doubles of their devices when memory runs out: a complete opening, and a loop on the opened device.
+ * SPDX-License-Identifier: MIT */
 #include "memory/failing.h"
 
 #include "device/doubles.h"

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A quad of two triangles in each of the ways to say it: flat and nested tags, a strip and a list, sparse positions,
+/* A quad of two triangles in all encodings: flat and nested tags, a strip and a list, sparse positions,
  * a matrix and its parts, names, one node below another. */
 static const char many_ways[] =
     "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,1]}],"

@@ -15,7 +15,7 @@ static float positions[(CELLS + 1) * (CELLS + 1) * 3];
 static float uvs[(CELLS + 1) * (CELLS + 1) * 2];
 static uint32_t indices[CELLS * CELLS * 6];
 
-/* --- what is added --- */
+/* --- surfaces to add --- */
 
 static knurl_material_desc a_material(void) {
     knurl_material_desc material;
@@ -115,7 +115,7 @@ static void make_uncommitted(void) {
     }
 }
 
-/* A plane and hills, committed and ticked: an edit has to leave what a tick may use. */
+/* A plane and hills, committed and ticked: an edit must keep objects that a tick may use. */
 static void make_full(void) {
     make_uncommitted();
     failing_need(knurl_scene_commit(scene));

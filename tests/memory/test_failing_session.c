@@ -1,4 +1,4 @@
-/* What the engines' bindings share when memory runs out. SPDX-License-Identifier: MIT */
+/* The shared code of the engines' bindings when memory runs out. SPDX-License-Identifier: MIT */
 #include "memory/failing.h"
 
 #include "session.h"
@@ -107,7 +107,7 @@ static knurl_result call_get_sound(void) {
     return result;
 }
 
-/* A frame of a game, and all that it may ask for. */
+/* A frame of a game, with all queries. */
 static knurl_result call_frame(void) {
     const double force[3] = {0.0, 0.1, 0.0};
     const double position[3] = {0.0, 0.0, 0.001};

@@ -125,7 +125,7 @@ TEST(foaw_matches_brute_force_between_counts) {
 }
 
 TEST(foaw_takes_a_sample_one_count_off_the_line_and_none_further) {
-    /* half a count further than what is held: 0, 2048, 2048, whose middle is exactly one count off; 0, 1025, 0 */
+    /* half a count beyond the held value: 0, 2048, 2048, whose middle is exactly one count away; 0, 1025, 0 */
     static const int64_t on[] = {0, 2560, 2560};
     static const int64_t off[] = {0, 1537, -512};
     brute_backlash(on, held, 3);
@@ -169,7 +169,7 @@ TEST(foaw_at_constant_velocity_is_within_an_eleventh_of_a_count_and_unbiased) {
             const double position[3] = {counts * QUANTUM, 0.0, 0.0};
             double out[3];
             knurl_velocity_update(&velocity, position, out);
-            if (k >= settled) { /* what is held follows, and has for a window */
+            if (k >= settled) { /* the held value follows, and has for a window */
                 CHECK_CLOSE(out[0], v, QUANTUM * 1000.0 / 11.0 + 1e-12); /* 5 mm/s */
                 sum += out[0];
             }
@@ -178,8 +178,8 @@ TEST(foaw_at_constant_velocity_is_within_an_eleventh_of_a_count_and_unbiased) {
     }
 }
 
-/* Positions that gain speed evenly, c steps a tick a tick: the middle of a window of w samples lies c w^2 / 8 off its
- * line, exactly so where w is even, c (w^2 - 1) / 8 where it is odd. The velocity is that of the window's middle. */
+/* Positions that gain speed evenly, c steps a tick a tick: the middle of a window of w samples is c w^2 / 8 from its
+ * line, exactly if w is even, c (w^2 - 1) / 8 if it is odd. The velocity is that of the window's middle. */
 TEST(foaw_lags_half_the_widest_window_that_a_gain_of_speed_allows) {
     static const size_t tried[] = {15, 11, 8, 6, 4, 3, 2, 1};
     static const int64_t gains[] = {2, 36, 38, 68, 70, 128, 130, 226, 228, 512, 514, 1024, 1026, 2048, 2050, 9000};
@@ -225,7 +225,7 @@ TEST(foaw_takes_a_window_of_time_whatever_the_rate) {
                 CHECK_CLOSE(out[axis], expected[axis], 1e-14L);
             }
         }
-        for (size_t axis = 0; axis < 3; axis++) { /* one way only: the backlash does not see how it got there */
+        for (size_t axis = 0; axis < 3; axis++) { /* in one direction only: the backlash has no effect */
             position[axis] += (double)random_integer(&seed, 0, 1 + k / 2000) * QUANTUM;
         }
     }
@@ -262,7 +262,7 @@ TEST(foaw_of_an_encoder_that_flickers_between_two_counts_is_exactly_zero) {
 }
 
 TEST(foaw_does_not_eat_more_than_one_count) {
-    /* to and fro between 0 and 1025 steps: what is held moves by a step a tick */
+    /* to and fro between 0 and 1025 steps: the held value moves by one step per tick */
     knurl_velocity velocity = make_velocity(KNURL_VELOCITY_FOAW, 1.0 / 16384.0, 1000.0);
     for (int k = 0; k < 100; k++) {
         const double position[3] = {(k % 2) * 1025.0 / (double)STEPS / 16384.0, 0.0, 0.0};
@@ -346,7 +346,7 @@ TEST(reset_makes_the_next_position_a_first_one) {
     }
 }
 
-/* Whatever the ring holds and wherever it stands. */
+/* With any content and position of the ring. */
 TEST(a_reset_estimator_is_a_fresh_one_from_any_place_of_its_ring) {
     for (int before = 1; before < 70; before++) {
         uint64_t seed = (uint64_t)before;

@@ -1,5 +1,5 @@
-/* The library's velocity estimators, with AVX where the machine has it and told to do without, against the same source
- * compiled without: bit for bit, whatever comes in. SPDX-License-Identifier: MIT */
+/* The library's velocity estimators, with AVX if the machine has it and with it disabled, against the same source
+ * compiled without AVX: equal to the bit for any input. SPDX-License-Identifier: MIT */
 #include "motion/velocity.h"
 #include "support/close.h"
 
@@ -10,7 +10,7 @@ void plain_update(knurl_velocity *velocity, const double position[3], double out
 #define QUANTUM 0.055e-3
 #define TICKS   120000
 
-/* One axis' next position (m) from the one before; each way in which windows are chosen. */
+/* One axis' next position (m) from the one before; each case of choosing a window. */
 typedef double next_position(double before, uint64_t *seed);
 
 static double anywhere(double before, uint64_t *seed) {
@@ -27,7 +27,8 @@ static double tied(double before, uint64_t *seed) {
     return QUANTUM * (floor(before / QUANTUM + 0.5) + (double)random_integer(seed, -2, 3));
 }
 
-/* From below a step to beyond what is told apart, where slopes round and positions clamp; NaN and infinities too. */
+/* From below a step to beyond the resolved range, in which slopes round and positions clamp; also NaN and infinities.
+ */
 static double extreme(double before, uint64_t *seed) {
     static const double others[] = {0.0, -0.0, 1e300, -1e300, 5e-324, (double)INFINITY, -(double)INFINITY, (double)NAN};
     (void)before;
@@ -45,7 +46,8 @@ static int same_bits(const double a[3], const double b[3]) {
     return x[0] == y[0] && x[1] == y[1] && x[2] == y[2];
 }
 
-/* Two estimators in step, library's and plain build's; they end in the same state, but for what chooses the path. */
+/* Two estimators in step, library's and plain build's; they end in the same state, except for the selected code path.
+ */
 static void compare(next_position *next, uint64_t seed, double rate, uint32_t avx) {
     knurl_velocity library;
     knurl_velocity plain;
@@ -66,7 +68,7 @@ static void compare(next_position *next, uint64_t seed, double rate, uint32_t av
         knurl_velocity_update(&library, position, out);
         plain_update(&plain, position, expected);
         if (!same_bits(out, expected)) {
-            assert_memory_equal(out, expected, sizeof out); /* tells which; slow, so only then */
+            assert_memory_equal(out, expected, sizeof out); /* shows the difference; slow, so only then */
         }
         if (!(isfinite(out[0]) && isfinite(out[1]) && isfinite(out[2]))) {
             fail_msg("tick %d: not finite", k);

@@ -88,9 +88,9 @@ TEST(a_larger_step_of_velocity_is_taken_on_at_once_but_for_a_count_in_10_ms) {
     }
 }
 
-/* Steady motion: how far it strays from its own mean over 51 ms, as an rms in counts; slower is not heard as a tone.
- * About a count a tick, where the encoder's steps beat slowly with the ticks, is the worst. Moved on by FOAW's velocity
- * itself, as it was until November 2026, it is 0.235. */
+/* Steady motion: the deviation from its mean over 51 ms, as an rms in counts; slower changes are not tones. Speeds of
+ * about one count per tick, at which the encoder's steps beat slowly with the ticks, are the worst. With FOAW's
+ * velocity itself, as until November 2026, it is 0.235. */
 TEST(in_steady_motion_little_is_left_of_the_counts) {
     enum { TICKS = 2500, LEAD = 500, WINDOW = 51 };
     static double off[TICKS];

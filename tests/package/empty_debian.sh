@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Tries a release's archives in an empty Debian, each in one of its own: what is installed runs the plate. Root only, for
-# it mounts; all mounts are of its own namespace and end with it.
-# usage: empty_debian.sh RELEASE FOLDER     RELEASE: as ./run release makes it; FOLDER: keeps the empty Debian
+# Tries a release's archives in an empty Debian, each in a separate one: the installed tool runs the plate. Root only,
+# because it mounts; all mounts are in its own namespace and end with it.
+# usage: empty_debian.sh RELEASE FOLDER     RELEASE: made by ./run release; FOLDER: keeps the empty Debian
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)

@@ -23,10 +23,10 @@ make_base() {
             Binary::apt::APT::Keep-Downloaded-Packages true >"$base/etc/apt/apt.conf.d/99knurl"
         touch "$base/.complete"
     fi
-    mount -t tmpfs tmpfs "$base/mnt" # what overlays write, and where they are: gone with the namespace
+    mount -t tmpfs tmpfs "$base/mnt" # overlays and their writes: removed with the namespace
 }
 
-# usage: try NAME COMMANDS: in a copy that has the sources in /source and, where $release is set, that folder in /release;
+# usage: try NAME COMMANDS: in a copy with the sources in /source and, if $release is set, that folder in /release;
 # its output goes to FOLDER/NAME.log
 try() {
     local name=$1 layers=$base/mnt copy=$dir/root

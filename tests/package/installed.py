@@ -2,7 +2,7 @@
 """Installs Knurl as others do, moves the tree, and builds consumers against it: C and C++, by find_package() and by
 pkg-config; shared, static, and the core alone without a C++ compiler.
 usage: installed.py SOURCE BUILD FOLDER C_COMPILER CXX_COMPILER C_FLAGS CXX_FLAGS
-BUILD: of the static libraries; C_FLAGS, CXX_FLAGS: what it was compiled with, so that ccache has the others' objects, too;
+BUILD: of the static libraries; C_FLAGS, CXX_FLAGS: its compile flags, so that ccache has the others' objects, too;
 they are built beside it, for with CCACHE_BASEDIR ccache compares paths as seen from the folder of the build; FOLDER: kept
 for the next time.
 SPDX-License-Identifier: MIT"""

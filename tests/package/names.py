@@ -1,4 +1,4 @@
-"""What ./run says on systems without apt-get: the packages that are missing, by their names there, as docs/building.md has
+"""The output of ./run on systems without apt-get: missing packages by the system's names, as in docs/building.md
 them. Their package managers are stood in for. usage: names.py SOURCE FOLDER"""
 import os
 import shutil
@@ -7,7 +7,7 @@ import sys
 
 SOURCE, FOLDER = sys.argv[1:]
 INSTALLED = {"glm-devel", "glm"}
-ROWS = [  # manager, what asks for a package, what it says of g++, ninja-build and libglm-dev, which is there
+ROWS = [  # manager, its query command, its output for g++, ninja-build and libglm-dev (installed)
     ("dnf", "rpm", "sudo dnf install gcc-c++ ninja-build\n"),
     ("pacman", "pacman", "sudo pacman -S gcc ninja\n"),
     ("zypper", "rpm", "sudo zypper install gcc-c++ ninja\n"),

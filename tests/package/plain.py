@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""A plain `cmake -S . -B build`: a release build, which says what it leaves out; and an option that is switched off later counts.
+"""A plain `cmake -S . -B build`: a release build, which lists omitted parts; and an option that is switched off later
+counts.
 usage: plain.py SOURCE FOLDER C_COMPILER CXX_COMPILER
 SPDX-License-Identifier: MIT"""
 import json

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# The README's two commands in empty systems, as somebody has them who clones this there: ./run demo, and ./run test or its
-# parts. Says for each how long both took with what they install, what was tested, and what its compiler warned of.
+# The README's two commands in empty systems, as after a clone there: ./run demo, and ./run test or its parts. Prints
+# for each the time of both, including installation, the tests, and the compiler's warnings.
 # usage: systems.sh FOLDER PARTS SUITE...     FOLDER: keeps the empty systems; PARTS: '' for ./run test whole, or labels
-# Exit 1: something failed; 3: no empty system can be had.
+# Exit 1: something failed; 3: an empty system is not available.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
 [ $# -ge 3 ] || { sed -n 's/^# \(usage.*\)/\1/p' "$0" >&2; exit 2; }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The loader's tests with other versions of tinygltf: with the headers that systems.sh has met, and with each as its makers
-# publish it, without nlohmann-json's folder.
+# The loader's tests with other versions of tinygltf: with the headers of the systems in systems.sh, and with each as
+# published, without nlohmann-json's folder.
 # usage: tinygltf.sh SYSTEMS BUILD     SYSTEMS: systems.sh's folder; BUILD: where to build
 set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Runs programs of one version with the library of another: today's, and one that is still to come, whose structs have
-grown and which has one more function. What works goes on working; what an older library cannot do is refused by a sentence.
+grown and which has one more function. Existing uses still work; features missing in an older library are refused with a
+message.
 usage: versions.py SOURCE BUILD FOLDER C_COMPILER C_FLAGS     BUILD: beside it today's library is built (see installed.py);
 FOLDER is kept for the next time.
 SPDX-License-Identifier: MIT"""

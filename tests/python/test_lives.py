@@ -1,4 +1,4 @@
-"""Lives of objects and threads: what is closed, guarded, kept and ended. Each probe that could hang is a process of its own
+"""Lives of objects and threads: closing, guards, references and ends. Each probe that could hang is a separate process
 under a watchdog. KNURL_TEST_RUNS: of each (1). SPDX-License-Identifier: MIT"""
 import copy
 import gc

@@ -43,8 +43,7 @@ typedef struct laid {
     pose poses[LAID_MAX];
     int moves[LAID_MAX]; /**< 1: with the solids that move */
     uint32_t count;
-    uint32_t
-        reversed; /**< 1 and more: of each mesh, one triangle faces the other way, which is chosen by this number */
+    uint32_t reversed; /**< 1 1 and more: one triangle of each mesh is reversed, chosen by this number */
 } laid;
 
 /** m: signed, of a convex solid: its distance inside, no more than that outside. */

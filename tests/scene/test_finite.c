@@ -246,7 +246,7 @@ TEST(every_number_that_comes_out_is_finite) {
             }
         }
     }
-    assert_true(all_contacts > 10 * SCENES); /* else nothing was tested */
+    assert_true(all_contacts > 10 * SCENES); /* otherwise nothing was tested */
 }
 
 /* --- values beyond the range are refused, and its end is accepted --- */
@@ -289,7 +289,7 @@ TEST(coordinates_are_taken_up_to_a_range_and_refused_beyond) {
                         "position: expected numbers from -1e+09 to 1e+09 m, found [0, 0, 2e+09]");
 }
 
-/* A HIP beyond the range ends its contacts, as any position that is no number; back in range it begins anew. */
+/* A HIP beyond the range ends its contacts, like a position that is not finite; back in range it starts anew. */
 TEST(hips_beyond_the_range_count_as_no_position) {
     static const double far[] = {1.001e9, -1.7e19, 1e200, 1e308};
     surface_parts parts = surface_plane();

@@ -265,7 +265,7 @@ TEST(new_target_on_the_way_goes_on_from_where_it_is) {
     }
 }
 
-/* As a game does it: a new target every frame, whatever the frame, before or after the last one was reached. */
+/* Like a game: a new target every frame, for any frame length, before or after the last one was reached. */
 TEST(targets_frame_by_frame_make_no_jumps) {
     uint64_t seed = 5;
     surface_parts parts = wide_plane();
@@ -291,7 +291,7 @@ TEST(targets_frame_by_frame_make_no_jumps) {
     }
 }
 
-/* Half way through a turn another one: the normal goes on from there. */
+/* A new turn half way through another: the normal continues from there. */
 TEST(new_turn_on_the_way_goes_on_from_where_it_is) {
     static const double y[3] = {0.0, 1.0, 0.0};
     surface_parts parts = wide_plane();

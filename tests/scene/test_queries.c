@@ -1,5 +1,5 @@
-/* What a game asks about a scene: where a surface is, whether it exists, what is closest to a point, all contacts of a
- * HIP. SPDX-License-Identifier: MIT */
+/* A game's queries: a surface's pose and existence, the closest point of all surfaces, all contacts of a HIP.
+ * SPDX-License-Identifier: MIT */
 #include "support/poses.h"
 
 static double flat(double x, double y) {
@@ -69,7 +69,7 @@ static const double half_edges[3][3] = {{0.05, 0.05, 0.0}, {0.03, 0.02, 0.04}, {
 
 typedef struct nearest {
     double distance, point[3];
-    int surface, is_in_box; /* 0, 1 or 2; whether the point lies in the box, which has another rule */
+    int surface, is_in_box; /* 0, 1 or 2; 1 if the point is in the box, which has another rule */
 } nearest;
 
 /* The closest point of the three to p, by clamping to each one's box in its own frame. */
@@ -170,7 +170,7 @@ TEST(a_closest_point_is_asked_for_with_numbers_in_range) {
 
 /* --- rays --- */
 
-/* Where p + t * way, t from 0 to 1, goes into a box about the origin, by slabs: t, or 2 where it does not. */
+/* The entry of p + t * way, t from 0 to 1, into a box about the origin, by slabs: t, or 2 if there is none. */
 static double enter_box(const double p[3], const double way[3], const double half[3]) {
     double begin = -1.0, end = 2.0;
     for (int i = 0; i < 3; i++) {
@@ -181,7 +181,7 @@ static double enter_box(const double p[3], const double way[3], const double hal
     return begin > end || begin <= 0.0 || begin >= 1.0 ? 2.0 : begin;
 }
 
-/* Three surfaces at random poses, and the ray's way through their boxes. */
+/* Three surfaces at random poses, and the ray in their boxes' axes. */
 typedef struct three {
     knurl_scene *scene;
     knurl_surface_id ids[3];
@@ -202,7 +202,7 @@ static three place_three(surface_parts parts[3], uint64_t *seed) {
     return t;
 }
 
-/* The first surface that a ray hits, or -1, where (a share of the way), and whether on its front. The box of a plane
+/* The first surface that a ray hits, or -1; the share of the ray, and 1 if on its front. The box of a plane
  * has no height: its slabs meet at z = 0. The first surface is single-sided, and passed from behind; the last is not.
  */
 static int find_first(const three *t, const double from[3], const double way[3], double *share, int *front) {

@@ -49,7 +49,7 @@ static inline double time_to_act(const lab_signals *s) {
     return -1.0;
 }
 
-/* No longer unstable, and the force swings by a sixth at most of what it does raw. with: the same run, protected. */
+/* No longer unstable, and the force's swing is at most a sixth of the raw one. with: the same run, protected. */
 static inline int is_stopped(const lab_result *with, const lab_signals *with_signals, const lab_signals *raw_signals) {
     return with->outcome != LAB_UNSTABLE && time_to_act(with_signals) >= 0.0 &&
            late_swing(with_signals, with_signals->written) <= late_swing(raw_signals, raw_signals->written) / 6.0;

@@ -1,6 +1,5 @@
-/* What runs away raw within the devices' own limits: stiffness up to what the maker promises, amplitude up to the
- * force. Found in the study's maps; each lies well beyond the bound (b + fc/v + hand)/(T/2 + td).
- * SPDX-License-Identifier: MIT
+/* Runaways without protections within the devices' limits: stiffness up to the maker's, amplitude up to the force. From
+ * the study's maps; each is well beyond the bound (b + fc/v + hand)/(T/2 + td). SPDX-License-Identifier: MIT
  */
 #ifndef KNURL_TEST_RUNAWAYS_H
 #define KNURL_TEST_RUNAWAYS_H

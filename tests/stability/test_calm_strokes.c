@@ -12,7 +12,7 @@
 typedef struct stroke_case {
     const char *device;
     int32_t method;
-    double stiffness; /* N/m: above what is passive, so that the controller watches */
+    double stiffness; /* N/m: above the passive stiffness, so that the controller is active */
     double speed;     /* m/s, to and fro over 20 mm */
     int moves;        /* 1: a game shakes the surface, 2 mm along its ridges' direction and 0.5 mm up, at 2 Hz */
 } stroke_case;
@@ -39,7 +39,7 @@ static knurl_scene *make_scene(const stroke_case *c, const knurl_device *device,
     desc.plane = &plane;
     desc.material = &material;
     desc.normal[1] = 1.0;
-    hip.workspace = &workspace; /* and what a loop would tell it */
+    hip.workspace = &workspace; /* and the settings from a loop */
     hip.resolution = info.resolution;
     hip.max_force = info.max_force;
     hip.continuous_force = info.continuous_force;

@@ -1,5 +1,5 @@
-/* The laboratory against closed forms: what its signals say is on the side that theory says. Where the study's table
- * scans more, the tests take the rows at 1 kHz and the corners. SPDX-License-Identifier: MIT */
+/* The laboratory against closed forms: its signals agree with theory. If the study's table scans more, the tests use
+ * the rows at 1 kHz and the corners. SPDX-License-Identifier: MIT */
 #include "support/close.h"
 
 #include "stability.h"
@@ -114,7 +114,7 @@ static double zigzag_gain(double stiffness, double damping, size_t count) {
     return r.energy / ((double)(count - 1) * step * step * 1000.0); /* over the integral of v^2 */
 }
 
-/* Colgate and Schenkel: b > K T/2 + |B|. What a damper b takes is b times the integral of v^2. */
+/* Colgate and Schenkel: b > K T/2 + |B|. A damper b absorbs b times the integral of v^2. */
 TEST(the_observer_finds_what_a_zigzag_gets_out_of_a_sampled_wall) {
     static const double walls[][2] = {{400.0, 0.0}, {1000.0, 0.0}, {400.0, 2.0}, {2000.0, 5.0}};
     for (size_t i = 0; i < COUNT_OF(walls); i++) {
@@ -147,7 +147,7 @@ TEST(a_held_force_gives_half_k_dx_squared_a_tick_more_than_the_spring_took) {
 }
 
 /* A texture that lifts a resting device by dH at the force F = K (H - z) puts K [(H' - z)^2 - (H - z)^2]/2 into the
- * spring: what comes out of it is not the wall's fault. */
+ * spring: that energy is not due to the wall. */
 TEST(energy_that_the_texture_put_in_is_authorised) {
     enum { COUNT = 500 };
     const lab_signals s = make_signals(COUNT);
@@ -197,8 +197,8 @@ TEST(a_quantised_wall_with_too_little_dry_friction_buzzes) {
     }
 }
 
-/* Between a third and a half of the quantum's force there is no place to rest either, but what moves is too little to
- * be felt: less than 2 um, against 7 um at 30 Hz. */
+/* Between a third and a half of the quantum's force there is no rest position either, but the motion is too small to be
+ * felt: less than 2 um, against 7 um at 30 Hz. */
 TEST(near_the_bound_a_limit_cycle_is_there_and_is_not_felt) {
     lab_result r;
     memset(&r, 0, sizeof r);
@@ -225,7 +225,7 @@ TEST(dry_friction_holds_a_fall_that_is_smaller_than_it_can_take) {
 
 /* --- people's walls --- */
 
-/* Dry friction of a device that slides at v acts across the way as fc/v N s/m: 0.5 + 0.26/v + 0.5 of a loose hand. */
+/* Dry friction of a device that slides at v acts across its path as fc/v N s/m: 0.5 + 0.26/v + 0.5 of a loose hand. */
 TEST(a_device_that_slides_loses_its_rest_where_friction_over_speed_says) {
     static const double speeds[] = {0.15, 0.25};
     for (size_t i = 0; i < COUNT_OF(speeds); i++) {

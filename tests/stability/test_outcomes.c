@@ -1,4 +1,4 @@
-/* What the laboratory makes of walls and gratings: each outcome where theory puts it, and the numbers beside it.
+/* The laboratory's outcomes for walls and gratings: each as predicted by theory, and its numbers.
  * SPDX-License-Identifier: MIT */
 #include "support/close.h"
 
@@ -42,7 +42,7 @@ TEST(a_wall_below_every_bound_rests_and_gives_nothing_back) {
         CHECK_SAME(r.energy, 0.0);
         CHECK_SAME(r.unauthorised, 0.0);
         CHECK_SAME(r.bangs, 0.0);
-        /* the hand presses with 1 N against its spring, which gives way by what the wall gives way; dry friction */
+        /* the hand presses with 1 N against its spring, which yields as much as the wall; dry friction */
         CHECK_CLOSE(signals.motor[signals.count - 1], 1.0 * 300.0 / (300.0 + grip->stiffness), 0.26 + 300.0 * 55e-6);
     }
 }
@@ -117,7 +117,7 @@ TEST(a_grating_that_is_too_shallow_to_be_felt_is_a_rest) {
 }
 
 /* 9 quanta push with 0.891 N, 10 with 0.990, and the hand with 0.948 in between: without dry friction it rests nowhere.
- * At two thirds of what would run away that is a matter of quanta. */
+ * At two thirds of the runaway's stiffness that is due to quantisation. */
 TEST(a_quantised_device_without_dry_friction_buzzes_below_its_runaway) {
     lab_case c;
     lab_case_init(&c);
@@ -144,7 +144,7 @@ TEST(a_runaway_grows_out_of_the_motors_work) {
     CHECK_CLOSE(r.force_max, 3.3, 1e-9);
 }
 
-/* Stable by the same bound with the delay's ticks taken away, all else being equal. */
+/* Stable by the same bound without the delay's ticks. */
 TEST(a_tick_of_delay_decides) {
     lab_case c;
     lab_case_init(&c);
@@ -220,7 +220,7 @@ TEST(what_runs_away_raw_within_the_devices_own_limits_does_so) {
 }
 
 /* The study's map of amplitudes: 88 cells of speed and amplitude, without protections. S2, which does not follow the
- * position, runs away in none. */
+ * position, never runs away. */
 TEST(by_amplitude_bandlimited_runs_away_no_more_than_the_best_of_the_others) {
     static stability_cell cells[STABILITY_COLUMNS * STABILITY_ROWS];
     stability_map map;

@@ -1,7 +1,6 @@
-/* The passivity controller on thousands of walls and gratings in the laboratory: what runs away without it is counted,
- * and what of that it stops; what is calm without it, and what of that it changes. The figures of
- * samples/study/README.md and docs/safety.md are these tests' with KNURL_LONG in the environment, which runs every
- * cell. SPDX-License-Identifier: MIT */
+/* The passivity controller on thousands of walls and gratings in the laboratory: counts runaways without it and those
+ * that it stops, and calm runs and those that it changes. The figures in samples/study/README.md and docs/safety.md are
+ * from these tests with KNURL_LONG in the environment, which runs every cell. SPDX-License-Identifier: MIT */
 #include "protection.h"
 
 #include <stdlib.h>
@@ -89,7 +88,7 @@ static void tell_counts(const counts *n) {
         n->calm, n->changed, 1e3 * n->most, n->shaky, n->shaky_changed, 1e3 * n->most_shaky);
 }
 
-/* The Falcon where it begins to run away, finer than the study's maps: every grip and method, ridges of 2 x 0.2 mm,
+/* The Falcon near the onset of runaways, finer than the study's maps: every grip and method, ridges of 2 x 0.2 mm,
  * from half the maker's stiffness and 60 mm/s on. */
 TEST_WITH(on_ridges_of_0_4_mm_every_runaway_is_stopped, NULL, drop_signals) {
     const int fine = getenv("KNURL_LONG") != NULL;
@@ -114,13 +113,13 @@ TEST_WITH(on_ridges_of_0_4_mm_every_runaway_is_stopped, NULL, drop_signals) {
 }
 
 static const char *const devices[] = {"preset=touch", "preset=falcon"};
-static const double most_stiffness[] = {1020.0, 3000.0}; /* N/m: what their makers promise */
+static const double most_stiffness[] = {1020.0, 3000.0}; /* N/m: their makers' limits */
 static const double amplitudes[] = {0.0001, 0.0004, 0.0008};
 static const double speeds[] = {0.02, 0.05, 0.09, 0.14, 0.2, 0.28, 0.4};
 
-/* Ridges of 2 x 0.1 to 2 x 0.8 mm on both devices, and flat walls, from a fifth of the maker's stiffness on. What is
- * not stopped are ridges of 0.8 mm and more on a Falcon, which throw a hand off, or whose own force is more than a
- * sixth of the runaway's. */
+/* Ridges of 2 x 0.1 to 2 x 0.8 mm on both devices, and flat walls, from a fifth of the maker's stiffness on. Exceptions
+ * are ridges of 0.8 mm and more on a Falcon, which throw a hand off, or whose own force is more than a sixth of the
+ * runaway's. */
 TEST_WITH(on_high_ridges_five_in_six_runaways_are_stopped, NULL, drop_signals) {
     counts n = {0};
     for (int i = 0; i < 2 * 4 * METHODS * 3 * 7 * 5; i += getenv("KNURL_LONG") ? 1 : SUITE_SANITIZED ? 131 : 13) {

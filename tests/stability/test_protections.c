@@ -1,6 +1,5 @@
-/* The protections in the laboratory: what runs away is stopped by the defaults, what is calm is left alone to the bit.
- * test_protection_grids.c has many more cells, and counts.
- * SPDX-License-Identifier: MIT */
+/* The protections in the laboratory: the defaults stop runaways, and do not change calm runs by a bit.
+ * test_protection_grids.c has many more cells. SPDX-License-Identifier: MIT */
 #include "protection.h"
 #include "runaways.h"
 
@@ -32,7 +31,7 @@ static double check_stopped(const lab_case *raw) {
     return acts;
 }
 
-/* Bounces of millimetres are over within a second; what takes longer to grow is smaller, and may. */
+/* Bounces of millimetres must end within a second; slower ones are smaller, and may last longer. */
 TEST_WITH(every_runaway_at_a_devices_own_limits_is_stopped_by_the_defaults, NULL, drop_signals) {
     for (size_t i = 0; i < COUNT_OF(runaways); i++) {
         lab_case c = runaway_case(&runaways[i], KNURL_PROTECT_ALL);
@@ -51,13 +50,13 @@ TEST_WITH(every_runaway_at_a_devices_own_limits_is_stopped_by_the_defaults, NULL
 }
 
 static const char *const devices[] = {"preset=touch", "preset=falcon"};
-static const double most[] = {1020.0, 3000.0}; /* N/m: what their makers promise */
+static const double most[] = {1020.0, 3000.0}; /* N/m: their makers' limits */
 static const char *const grips[] = {"loose", "light", "medium", "firm"};
 static const int32_t methods[] = {KNURL_METHOD_DEFAULT, KNURL_METHOD_S1, KNURL_METHOD_S2,
                                   KNURL_METHOD_BANDLIMITED}; /* the first: a flat wall */
 static const double speeds[] = {0.01, 0.05, 0.1, 0.3};
 
-/* Runs raw, and where that is calm with the controller: the same forces. Returns 1 where it was calm. */
+/* Runs raw, and if that is calm, with the controller: the forces must be equal. Returns 1 if it was calm. */
 static int compare(size_t device, const char *grip, int32_t method, double speed, double stiffness) {
     lab_case c;
     lab_case_init(&c);

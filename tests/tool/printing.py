@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Names from files, devices and arguments may hold what moves a terminal's cursor or feigns another line. The samples print
-them in one way only, say() of samples/common/say.h; this check, a part of the lint, finds every other.
+"""Names from files, devices and arguments may contain terminal escapes or fake another line. The samples print them
+only by say() of samples/common/say.h; this check, a part of the lint, finds all other prints.
 SPDX-License-Identifier: MIT"""
 import ast
 import pathlib
@@ -8,7 +8,7 @@ import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-STRICT = ("samples/common/", "samples/knurl/", "samples/bench/")  # print by say() and by these alone:
+STRICT = ("samples/common/", "samples/knurl/", "samples/bench/")  # print only by say() and these:
 WRITERS = {
     "samples/common/say.c": "it is the way",
     "samples/common/json.c": "escapes all strings",
@@ -22,7 +22,7 @@ WRITERS = {
 EXAMPLES = ("samples/hello_grating.c", "samples/feel_scene.c", "samples/touch_grating.c", "samples/conform/conform.c")
 
 READERS = ("samples/draw_run.py", "samples/study/plot.py")  # of files that others made; they print by one_line() or
-CLEAN = {"BadInput", "ImportError"}  # what these exceptions say
+CLEAN = {"BadInput", "ImportError"}  # messages of these exceptions
 
 CALL = re.compile(r"(?<![\w.>])((?:v?f?printf|v?dprintf|f?puts|f?put[cs]|putchar|putw?char|fputw[cs]|v?f?wprintf|fwrite|perror|"
                   r"psignal|write|writev|send))(?:_unlocked)?\s*\(")

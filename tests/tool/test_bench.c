@@ -52,7 +52,7 @@ static const char *const contract[] = {"empty",
                                        "paced_mesh_100k",
                                        "paced_mesh_100k_thrashed"};
 
-/* The object of one case, in one line of JSON; ends the test where it is not there exactly once. */
+/* The object of one case, in one line of JSON; fails the test if it is not there exactly once. */
 static const char *only_case(const char *json, const char *name) {
     char quoted[64];
     (void)snprintf(quoted, sizeof quoted, "{\"case\": \"%s\", ", name);

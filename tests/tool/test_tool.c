@@ -9,7 +9,7 @@ static const char plate[] = KNURL_TEST_ASSETS "/plate_1d.glb";
 #define TAG                                                                                                            \
     "{\"knurl\":{\"version\":1,\"spatial_frequency\":[1000,0],\"amplitude\":0.0002,\"stiffness\":400,\"axis\":[1,0,0]}}"
 
-/* A CSV's header and its rows of numbers; a NaN is a cell that is none. */
+/* A CSV's header and its rows of numbers; NaN: an empty cell. */
 static void check_csv(const char *csv, const char *header, const double *expected, size_t rows, size_t columns) {
     const size_t length = strlen(header);
     assert_true(strncmp(csv, header, length) == 0 && csv[length] == '\n');
@@ -215,7 +215,7 @@ static const float sheet[12][3] = {{-0.05F, 0, 0.05F}, {0.05F, 0, 0.05F},   {0.0
                                    {0.05F, 0, -0.05F}, {-0.05F, 0, -0.05F}, {-0.05F, 0, 0.05F},  {0.05F, 0, -0.05F},
                                    {0.05F, 0, 0.05F},  {-0.05F, 0, 0.05F},  {-0.05F, 0, -0.05F}, {0.05F, 0, -0.05F}};
 
-/* `copies` nodes that stand at places[i] along x, all of one mesh of the first `corners` of a sheet. */
+/* `copies` nodes at places[i] along x, all of one mesh of the first `corners` of a sheet. */
 static const char *write_sheets(const float (*from)[3], int corners, const double *places, size_t copies) {
     char nodes[512] = "";
     char list[64] = "";
@@ -240,7 +240,7 @@ static const char *write_sheets(const float (*from)[3], int corners, const doubl
     return tool_path("sheets.gltf");
 }
 
-/* What stands behind a key of the surface `name`; until its end, the surface's later keys. */
+/* The text after a key of the surface `name`, to the end of the JSON. */
 static const char *value_of(const char *json, const char *name, const char *key) {
     char quoted[64];
     (void)snprintf(quoted, sizeof quoted, "\"name\": \"%s\"", name);
@@ -295,7 +295,7 @@ TEST(inspect_counts_triangles_in_reversed_pairs_and_calls_them_double_sided) {
     }
 }
 
-/* The workspace's middle is put at the middle of them all: the sheet that stands there can be touched, those 5 m away
+/* The workspace's middle is at the middle of all sheets: the sheet there can be touched, those 5 m away
  * cannot; and one whose edge is 1 mm inside the Touch's 160 mm can, 1 mm outside not. */
 TEST(inspect_tells_what_a_device_can_reach) {
     const double reach = 0.5 * 0.16 + 0.05; /* m, of a sheet's middle */

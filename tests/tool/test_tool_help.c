@@ -1,5 +1,5 @@
 /* The tool explains itself: help per command, near misses, a man page and completions from one table; inspect --check;
- * what it says of traces that were written otherwise. SPDX-License-Identifier: MIT */
+ * messages for traces in other formats. SPDX-License-Identifier: MIT */
 #include "support/close.h"
 #include "support/suite.h"
 #include "support/tool.h"
@@ -57,7 +57,7 @@ TEST(completion_offers_what_commands_take) {
     assert_true(tried >= 35);
 }
 
-/* What bash would offer for the words of a line, the last of which is being typed. */
+/* bash's completions for the last word of a line. */
 static process complete(const char *words) {
     char script[2048];
     (void)snprintf(script, sizeof script,

@@ -1,4 +1,4 @@
-/* Names of any origin: they do nothing to a terminal and nothing in a spreadsheet, and can be told from no contact.
+/* Untrusted names: no effect on a terminal or in a spreadsheet, and distinct from "no contact".
  * SPDX-License-Identifier: MIT */
 #include "support/close.h"
 #include "support/tool.h"
@@ -140,7 +140,7 @@ static void first_cell(const char *csv, char *cell, size_t size) {
     (void)snprintf(cell, size, "%.*s", (int)strcspn(line + 1, ",\n"), line + 1);
 }
 
-/* As docs/tagging.md says: without its first apostrophe, a cell is the name. */
+/* See docs/tagging.md: without its first apostrophe, a cell is the name. */
 TEST(a_name_is_no_formula_and_no_word_in_csv) {
     static const struct {
         const char *name, *cell;

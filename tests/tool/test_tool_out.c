@@ -1,4 +1,4 @@
-/* What the tool writes never replaces what it reads, and is there whole or not at all. SPDX-License-Identifier: MIT */
+/* The tool's outputs never replace its inputs, and are complete or absent. SPDX-License-Identifier: MIT */
 #include "support/close.h"
 #include "support/tool.h"
 
@@ -61,7 +61,7 @@ TEST(a_run_does_not_replace_the_buffer_of_its_model) {
     check_kept(tool_path("plate.bin"), model, NULL, tool_path("plate.bin"));
 }
 
-/* Whoever may write into the folder could otherwise have any file of the user's overwritten. */
+/* Otherwise anyone who can write into the folder could make the tool overwrite any of the user's files. */
 TEST(a_link_where_an_unfinished_file_was_expected_is_not_followed) {
     write_text(tool_path("victim"), "mine\n");
     assert_int_equal(symlink("victim", tool_path("out.csv.part")), 0);
@@ -96,7 +96,7 @@ TEST(an_output_may_have_the_longest_name) {
     assert_true(file_exists(tool_path(name)));
 }
 
-/* So that a program which reads the rows finds nothing else. */
+/* So that a program reads only rows. */
 TEST(standard_output_takes_the_rows_and_standard_error_the_summary) {
     process p = RUN_TOOL("run", plate, "--fast", "--seconds", "0.01", "--out", "-");
     assert_int_equal(p.exit_code, 0);
@@ -141,8 +141,8 @@ static process run_closed(const char *closed, const char *device, const char *ou
                                           "0.1", "--device", device, "--out", out, NULL});
 }
 
-/* Neither a file called "-" nor the output takes a closed stream's place: the warning that the device is too weak for
- * the walls would stand among the rows. */
+/* Neither a file called "-" nor the output takes a closed stream's place: otherwise the warning that the device is too
+ * weak for the walls would be among the rows. */
 TEST(closed_standard_streams_are_told_and_no_file_takes_their_place) {
     process p = run_closed(">&-", "fake", "-");
     check_refused(&p, 1, "-: Bad file descriptor", "--out - >&-");
@@ -204,7 +204,7 @@ static void wait_for_part(void) {
     assert_true(files_that_end(".part") > 0);
 }
 
-/* What was there before stays, and the exit code says that there is nothing new. */
+/* The old file stays, and the exit code shows that there is no new one. */
 TEST(an_interrupted_run_leaves_no_short_file) {
     static const int signals[] = {SIGINT, SIGTERM};
     const char *const arguments[] = {KNURL_TEST_TOOL,      "run", plate, "--seconds", "60", "--out",
@@ -218,7 +218,7 @@ TEST(an_interrupted_run_leaves_no_short_file) {
         process_finish(&p);
         assert_int_equal(p.exit_code, 128 + signals[i]);
         assert_non_null(strstr(p.err, "interrupted after"));
-        assert_non_null(strstr(p.out, "\"ticks\": ")); /* the summary is told all the same */
+        assert_non_null(strstr(p.out, "\"ticks\": ")); /* the summary is still printed */
         process_free(&p);
         char *text = read_file(tool_path("out.csv"));
         assert_string_equal(text, "mine\n");

@@ -1,5 +1,5 @@
-/* What samples/study/plot.py and samples/draw_run.py draw of a run: never over the run, and with a sentence on what
- * they cannot read. SPDX-License-Identifier: MIT */
+/* samples/study/plot.py and samples/draw_run.py: never overwrite the run, and report unreadable input.
+ * SPDX-License-Identifier: MIT */
 #include "support/close.h"
 #include "support/tool.h"
 

@@ -1,5 +1,5 @@
-/* What the command-line tool says to bad input: exit 1 for a failure, 2 for wrong usage or an unknown method or device;
- * one line on standard error that says what, where and what was expected; no file half written.
+/* The command-line tool's errors for bad input: exit 1 for a failure, 2 for wrong usage or an unknown method or device;
+ * one line on standard error with the fault, its place and the expected value; no incomplete file.
  * SPDX-License-Identifier: MIT */
 #include "support/close.h"
 #include "support/tool.h"
@@ -282,7 +282,7 @@ TEST(an_existing_output_outlives_a_run_that_fails) {
     }
 }
 
-/* One line, whatever a name holds. */
+/* One line, with any name. */
 TEST(a_line_break_in_a_name_does_not_break_the_line) {
     process p = RUN_TOOL("inspect", "two\nlines.glb");
     check_refused(&p, 1, "lines.glb", "a scene's name");
@@ -301,7 +301,7 @@ TEST(without_a_command_the_usage_is_told) {
     assert_non_null(strstr(p.err, "knurl"));
 }
 
-/* The tool by itself in a folder, as it is where the library that the studies need is not installed. */
+/* The tool alone in a folder, as without the library that the studies need. */
 TEST(without_the_studies_the_tool_runs_and_tells_what_they_need) {
     char tool[1024];
     (void)snprintf(tool, sizeof tool, "%s", tool_path("knurl"));

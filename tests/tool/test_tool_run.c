@@ -1,5 +1,5 @@
-/* `knurl run`, the main job: its CSV and summary, fast and in real time, stopped by a signal, and what it leaves
- * behind. SPDX-License-Identifier: MIT */
+/* `knurl run`, the main job: its CSV and summary, fast and in real time, stopped by a signal, and its files.
+ * SPDX-License-Identifier: MIT */
 #include "support/close.h"
 #include "support/tool.h"
 
@@ -37,8 +37,7 @@ static void check_no_leftovers(void) {
 }
 
 /* Down on the spot from 1 mm above to 1 mm below in 10 ticks, a rest, then 0.25 m/s along x: 250 Hz, 4 ticks a cycle.
- * F = K (H - z) along y. S2: while it stands H = 0, and then +A, +A, -A, -A from the tick that is the first to see
- * motion.
+ * F = K (H - z) along y. S2: H = 0 at rest, and then +A, +A, -A, -A from the first tick with motion.
  */
 TEST(a_trace_on_a_plate_gives_the_forces_of_the_equations) {
     write_text(
@@ -134,7 +133,7 @@ TEST(fast_twice_gives_the_same_bytes_and_another_seed_others) {
     check_no_leftovers();
 }
 
-/* By S1, whose height is looked up at the proxy, by S2, and by bandlimited; over a rim too: the sweep's
+/* By S1, whose height depends on the proxy's position, by S2, and by bandlimited; over a rim too: the sweep's
  * strokes are longer than a bar.
  */
 TEST(the_full_model_feels_the_same) {
@@ -171,8 +170,7 @@ TEST(the_full_model_feels_the_same) {
 
 TEST(real_time_gives_the_same_csv_as_fast_and_says_nothing_into_a_pipe) {
     process slow = RUN_TOOL("run", plate, "--stroke", "sweep", "--seconds", "0.6", "--out", tool_path("slow.csv"));
-    /* On a machine that stands still for 50 ms the watchdog zeroes the force, and rightly so: then the forces do
-     * differ. */
+    /* If the machine stalls for 50 ms the watchdog zeroes the force, correctly: then the forces differ. */
     for (int again = 0; again < 5 && json_number_of(slow.out, "watchdogs") > 0.0L; again++) {
         process_free(&slow);
         slow = RUN_TOOL("run", plate, "--stroke", "sweep", "--seconds", "0.6", "--out", tool_path("slow.csv"));
@@ -206,7 +204,7 @@ TEST(rate_seconds_surface_and_method_are_obeyed) {
                                 "--method", "S1", "--out", tool_path("out.csv"));
     check_done(&p);
     CHECK_SAME(json_number_of(p.out, "ticks"), 3000.0L);
-    CHECK_SAME(json_number_of(p.out, "events"), 0.0L); /* S1 has none */
+    CHECK_SAME(json_number_of(p.out, "events"), 0.0L); /* S1 has no events */
     char *csv = read_run(tool_path("out.csv"), 3000);
     double last[COLUMNS] = {0.0};
     (void)csv_row(csv, 2999, last, COLUMNS);
@@ -264,7 +262,7 @@ TEST(an_output_may_be_a_device) {
     check_done(&p);
     assert_false(file_exists("/dev/null.part"));
     process_free(&p);
-    static const char *const seconds[] = {"0.001", "1"}; /* noticed at the end, and on the way */
+    static const char *const seconds[] = {"0.001", "1"}; /* noticed at the end, and during the run */
     for (size_t i = 0; i < COUNT_OF(seconds) && file_exists("/dev/full"); i++) {
         p = RUN_TOOL("run", plate, "--fast", "--seconds", seconds[i], "--out", "/dev/full");
         assert_int_equal(p.exit_code, 1);
@@ -278,7 +276,7 @@ TEST(a_lost_device_is_a_failure_whose_csv_is_whole) {
     SCOPED_PROCESS p = RUN_TOOL("run", plate, "--fast", "--device", "fake:?lose_at=0.1", "--out", tool_path("out.csv"));
     assert_int_equal(p.signal, 0);
     assert_int_equal(p.exit_code, 1);
-    assert_int_equal(lines_in(p.err), 2);                               /* what happened when, and how the run ended */
+    assert_int_equal(lines_in(p.err), 2); /* the fault with its time, and the end of the run */
     assert_non_null(strstr(p.err, "knurl: note: after 0.100 s: lost")); /* of simulated time */
     assert_non_null(strstr(p.err, "knurl: run: the device was lost after 100 ticks"));
     assert_non_null(strstr(p.out, "\"faults\": {\"lost\": 1}"));
@@ -316,7 +314,7 @@ TEST(what_a_device_cannot_do_is_warned_of_and_clamped_on_request) {
         forces[clamped] = json_number_of(p.out, "force_max_n");
         process_free(&p);
     }
-    assert_true(forces[1] < 0.9 * forces[0]); /* the hand's spring gives way to either */
+    assert_true(forces[1] < 0.9 * forces[0]); /* the hand's spring yields to both */
 }
 
 SUITE_FIXTURES(make_folder, remove_folder)

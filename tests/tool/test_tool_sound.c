@@ -1,5 +1,5 @@
-/* `knurl run --wav`: a sound file of the run's length, with the line that the stroke asks for. SPDX-License-Identifier:
- * MIT */
+/* `knurl run --wav`: a sound file of the run's length, with the line of the stroke's frequency.
+ * SPDX-License-Identifier: MIT */
 #include "support/close.h"
 #include "support/tool.h"
 

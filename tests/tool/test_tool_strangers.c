@@ -1,4 +1,4 @@
-/* Files from strangers: what the tool does not read and does not wait for.
+/* Untrusted files: files that the tool does not read or wait for.
  * SPDX-License-Identifier: MIT */
 #include "support/close.h"
 #include "support/terminal.h"
@@ -122,7 +122,7 @@ static void inspect_on_terminal(const char *path, int is_slow, char *text, size_
         (void)kill(pid, SIGCONT);
     }
     for (ssize_t got = 1; got > 0 && length + 1 < size; length += got > 0 ? (size_t)got : 0) {
-        got = read(terminal, text + length, size - 1 - length); /* an error once nobody has the other end */
+        got = read(terminal, text + length, size - 1 - length); /* an error once the other end is closed */
     }
     text[length] = '\0';
     (void)close(terminal);
@@ -137,7 +137,7 @@ TEST(a_terminal_is_shown_how_far_a_long_load_is) {
     write_slow_file(tool_path("slow.gltf"));
     inspect_on_terminal(tool_path("slow.gltf"), 1, text, sizeof text);
     assert_non_null(strstr(text, "\rloading: "));
-    const char *erased = strstr(text, "\r\033[K"); /* before anything else is said */
+    const char *erased = strstr(text, "\r\033[K"); /* before any other output */
     assert_non_null(erased);
     assert_null(strstr(erased + 1, "loading"));
     process p = RUN_TOOL("inspect", tool_path("slow.gltf"));

@@ -1,5 +1,5 @@
-/* `knurl run --view`: who is let in, what a viewer gets, and that no viewer delays a tick. The client is
- * libwebsockets', too. SPDX-License-Identifier: MIT */
+/* `knurl run --view`: access, a viewer's data, and no delays of ticks by viewers. The client also uses libwebsockets.
+ * SPDX-License-Identifier: MIT */
 #include "support/scenes.h"
 #include "support/tool.h"
 
@@ -144,7 +144,7 @@ static void watch(watcher *w) {
 #define SERVE_UNTIL(w, condition)                                                                                      \
     for (const double begin_ = now_s(); !(condition);) {                                                               \
         assert_true(now_s() - begin_ < PATIENCE_S);                                                                    \
-        (void)lws_service((w)->context, -1); /* what there is */                                                       \
+        (void)lws_service((w)->context, -1); /* pending events */                                                      \
         wait_ms(1);                                                                                                    \
     }
 
@@ -221,7 +221,7 @@ TEST_WITH(a_viewer_that_sends_anything_is_disconnected, serve, end) {
     leave(&w);
 }
 
-/* Its sockets fill up: it misses ticks, and who came later gets the newest ones all the same. */
+/* Its sockets fill up: it misses ticks, and a later viewer still gets the newest ones. */
 TEST_WITH(a_stalled_viewer_delays_nobody, serve, end) {
     watcher stalled = {0};
     watcher other = {0};
@@ -307,7 +307,7 @@ static int connected_socket(void) {
     return s;
 }
 
-/* The answer to what is sent, up to the connection's end. */
+/* The answer to a request, up to the connection's end. */
 static const char *ask(const char *request) {
     static char answer[8192];
     const struct timeval patience = {2, 0};
@@ -336,7 +336,7 @@ static const char *get_below(const char *name) {
     return get(resource, "127.0.0.1");
 }
 
-/** It begins with this status, which may be cut short ("40"), and holds the text. */
+/** It starts with this status, which may be cut short ("40"), and holds the text. */
 static void check_answer(const char *answer, const char *status, const char *text) {
     char line[32];
     (void)snprintf(line, sizeof line, "HTTP/1.1 %s", status);
@@ -363,7 +363,7 @@ TEST_WITH(only_the_page_and_the_scene_are_served, serve, end) {
     check_answer(get_below(""), "404", "./run web");
 }
 
-/* Whoever holds connections open without the token is disconnected for those who come later. */
+/* Connections without the token are closed in favour of later ones. */
 TEST_WITH(requests_that_never_end_delay_nobody, serve, end) {
     static const char *const beginnings[] = {"", "GET ", "GET / HTTP/1.1\r\nHost: 127",
                                              "GET / HTTP/1.1\r\nHost: evil.example\r\n\r\n"};

@@ -94,7 +94,7 @@ TEST(t3_at_three_ticks_is_0_7071_twice_then_minus_1_4142) {
 }
 
 /* Eq. 8 with Algorithm 4 at three ticks, by hand: (2 e + 3 o) / sqrt(13), e = 1 -1 1 -1 1 -1, o = r r -2r r r -2r,
- * where r = 1/sqrt(2): 1.1430, 0.0337, -0.6220, 0.0337, 1.1430, -1.7314. */
+ * r = 1/sqrt(2): 1.1430, 0.0337, -0.6220, 0.0337, 1.1430, -1.7314. */
 TEST(t3_at_2_5_ticks_is_the_six_tick_mix_of_eq_8) {
     const long double s = sqrtl(13.0L);
     const long double r = sqrtl(0.5L);
@@ -180,7 +180,7 @@ TEST(t1_at_whole_frequencies_is_exact_for_a_second) {
     }
 }
 
-/* A period in doubles is known to 2^-53 or so: ticks that stand exactly on an edge are not asked about up there. */
+/* A period in doubles is known to 2^-53 or so: ticks exactly on an edge are not tested there. */
 TEST(t1_at_rational_periods_keeps_its_phase_at_large_ticks) {
     static const uint64_t starts[] = {1000000, 1000000000, UINT64_C(1000000000000)};
     for (size_t i = 0; i < COUNT_OF(rates) * COUNT_OF(starts); i++) {

@@ -1,4 +1,4 @@
-// The page that ./run web builds, in a real browser: first what is timed, then LANES cases at once, which mostly wait.
+// The page that ./run web builds, in a real browser: first timed cases, then LANES cases at once, which mostly wait.
 // ONLY=WORDS: the cases whose names hold them; SHORT=1: a few of all. usage: node browser.mjs PAGE MODULES KNURL TMP CHROMIUM
 // SPDX-License-Identifier: MIT
 import { complaints, finish, runCase } from "./harness.mjs";

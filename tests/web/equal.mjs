@@ -1,4 +1,4 @@
-// What the page shows, held against the tool: forces, sound, live runs and recordings. SPDX-License-Identifier: MIT
+// The page compared with the tool: forces, sound, live runs and recordings. SPDX-License-Identifier: MIT
 import assert from "node:assert/strict";
 import { execFileSync, spawn } from "node:child_process";
 import { once } from "node:events";
@@ -46,7 +46,7 @@ function strokeInWorker(tab, native) {
   }, native.flatMap((cells) => cells.slice(1, 4).map(Number)));
 }
 
-// What the page's AudioWorklet makes of samples that come as they do from the worker, 12 ms at a time.
+// The output of the page's AudioWorklet for samples that arrive like the worker's, 12 ms at a time.
 async function playThroughWorklet(tab, samples) {
   const source = readFileSync(join(dirname(fileURLToPath(import.meta.url)), "../../samples/web/sound.js"), "utf8");
   await tab.addScriptTag({ type: "module", content: `${source}\nglobalThis.Sound = Sound;` });

@@ -1,4 +1,4 @@
-// A browser with the page that ./run web built, and what a hand does to it. SPDX-License-Identifier: MIT
+// A browser with the page that ./run web built, and a user's actions. SPDX-License-Identifier: MIT
 import { AsyncLocalStorage } from "node:async_hooks";
 import { createReadStream, existsSync } from "node:fs";
 import { createServer } from "node:http";
@@ -43,7 +43,7 @@ export function runCase(run) {
   });
 }
 
-// A tab with the page, ready if it waits. before(tab): what the browser is deprived of.
+// A tab with the page, ready if it waits. before(tab): removes features of the browser.
 export async function open({ options = SMALL, hash = "", url = address + hash, before, waits = true } = {}) {
   await lane.getStore().context?.close();
   const context = await browser.newContext(options);

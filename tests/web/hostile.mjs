@@ -1,4 +1,4 @@
-// What a page may meet: files that are no model, browsers without this or that, windows and tabs out of sight.
+// Hostile conditions: files that are not models, browsers without some features, hidden windows and tabs.
 // SPDX-License-Identifier: MIT
 import assert from "node:assert/strict";
 import { once } from "node:events";
@@ -26,7 +26,7 @@ function textured(url) {
   return bytes;
 }
 
-// What a server at another port was asked for meanwhile.
+// Requests to a server at another port meanwhile.
 async function requestsDuring(work) {
   const asked = [];
   const other = createServer((request, response) => {
@@ -198,6 +198,6 @@ export const cases = {
       ({ count: globalThis.count, ran: performance.now() - globalThis.begin - ms }), stopped);
     console.log(`  ${count} ticks in the ${ran.toFixed(0)} ms that it ran`);
     assert.ok(count > 0);
-    assert.ok(count < ran + 150); // the worker gives up what is 100 ms late
+    assert.ok(count < ran + 150); // the worker drops ticks that are 100 ms late
   },
 };

@@ -1,4 +1,4 @@
-// What the page offers: strokes, keys, links, the failures' catalogue, tags; in order for who cannot see or use a mouse.
+// The page's features: strokes, keys, links, the failures' catalogue, tags; accessible without sight or a mouse.
 // SPDX-License-Identifier: MIT
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
@@ -18,7 +18,7 @@ async function greatest(tab, key) {
   return most;
 }
 
-// What a canvas shows at a place: its colour, in words that can be compared.
+// The colour of a canvas at a position, as a word.
 function pixels(tab, id, row) {
   return tab.evaluate(([name, share]) => {
     const canvas = document.getElementById(name);

@@ -1,4 +1,4 @@
-// The pictures of the page, and whether those of the documentation still show what it says. SPDX-License-Identifier: MIT
+// The pictures of the page, and a check that those of the documentation are up to date. SPDX-License-Identifier: MIT
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { writeFileSync } from "node:fs";

@@ -1,4 +1,4 @@
-// What is timed: it is printed, and depends on what else the machine does. SPDX-License-Identifier: MIT
+// Timed cases: printed, because they depend on the machine's load. SPDX-License-Identifier: MIT
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
@@ -8,7 +8,7 @@ import { open, page } from "./harness.mjs";
 // In the page: strokes without a pause once it has loaded, and notes when a force is first shown.
 function strokeOnceLoaded() {
   let count = 0;
-  let box; // asked for once: each time the page would be laid out
+  let box; // cached: each call would lay out the page
   const timer = setInterval(() => {
     const canvas = document.getElementById("view");
     if (/force0*[.0]*[1-9]/.test(document.getElementById("numbers")?.textContent)) {

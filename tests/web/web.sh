@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Tests of the page in a browser; 77 and the reason where there is none. usage: web.sh ROOT KNURL TMP
+# Tests of the page in a browser; 77 and the reason if there is no browser. usage: web.sh ROOT KNURL TMP
 set -euo pipefail
 page=$1/build/web
 modules=$1/build/web-work/page/node_modules

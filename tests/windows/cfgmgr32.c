@@ -1,5 +1,6 @@
-/* hidapi asks cfgmgr32.dll for the HID devices; the wine of Debian 12 lacks these functions and has setupapi's. Put
- * beside a program, with WINEDLLOVERRIDES=cfgmgr32=n,b. What hidapi can do without fails. SPDX-License-Identifier: MIT
+/* hidapi asks cfgmgr32.dll for the HID devices; the wine of Debian 12 lacks these functions and has setupapi's. Put it
+ * beside a program, with WINEDLLOVERRIDES=cfgmgr32=n,b. Functions that hidapi can do without fail.
+ * SPDX-License-Identifier: MIT
  */
 #include <windows.h> /* before setupapi.h, which needs it */
 

@@ -1,24 +1,24 @@
 #!/usr/bin/env bash
-# Makes build/windows: what a build for Windows links and includes (prefix), and where wine lives (wine). Done once.
+# Makes build/windows: libraries and headers for Windows (prefix), and wine's folder (wine). Done once.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 dir=$(cd "$here/../.." && pwd)/build/windows
 prefix=$dir/prefix
 mkdir -p "$prefix/include" "$prefix/share/cmake"
 
-# The C++ libraries that are headers alone, without the host's C headers that stand beside them.
+# Header-only C++ libraries, without the host's C headers beside them.
 headers() {
     local name
     for name in tiny_gltf.h nlohmann glm; do
         ln -sfn "/usr/include/$name" "$prefix/include/$name"
     done
-    for name in nlohmann_json glm; do # copied: these find their headers from where they stand
+    for name in nlohmann_json glm; do # copied: these find their headers relative to themselves
         cp -r "/usr/share/cmake/$name" "$prefix/share/cmake/"
     done
 }
 
-# What Debian has no MinGW packages of: its source packages, fetched with package lists of our own and checked by apt's
-# keys. Leaves their authors' archives in $dir/sources.
+# Libraries without MinGW packages in Debian: fetches source packages with private package lists, checked by apt's keys.
+# Puts the upstream archives into $dir/sources.
 fetch_sources() {
     local apt=$dir/apt options
     rm -rf "$apt" "$dir/sources"

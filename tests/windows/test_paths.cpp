@@ -1,4 +1,4 @@
-// What paths mean to the glTF loader on Windows: UTF-8 whatever the code page, drives, backslashes, names of devices.
+// Paths in the glTF loader on Windows: UTF-8 with any code page, drives, backslashes, names of devices.
 // SPDX-License-Identifier: MIT
 #include <filesystem>
 #include <fstream> // before cmocka, whose macro is called fail

@@ -1,5 +1,5 @@
-/* What base asks of Windows beyond what test_base sees: real-time threads, libraries, and what is done before a
- * process ends. The last starts this program again, which then dies as it is told. SPDX-License-Identifier: MIT */
+/* base's use of Windows beyond test_base: real-time threads, libraries, and actions before a process ends. The last
+ * starts this program again, which then ends in the requested way. SPDX-License-Identifier: MIT */
 #include "support/close.h"
 
 #include "base/system.h"
@@ -120,7 +120,7 @@ static LONG WINAPI hosts_filter(EXCEPTION_POINTERS *what) {
 
 static void read_nothing(void *argument) {
     volatile int *volatile nothing = argument;
-    (void)*nothing; /* NOLINT(clang-analyzer-core.NullDereference): that is what it is for */
+    (void)*nothing; /* NOLINT(clang-analyzer-core.NullDereference): intentional */
 }
 
 /* The child. */
@@ -185,7 +185,7 @@ TEST(a_process_zeroes_forces_before_it_ends_as_it_would_have) {
     for (size_t i = 0; i < COUNT_OF(cases); i++) {
         int is_zeroed = -1;
         const DWORD code = end_of(cases[i].how, &is_zeroed);
-        const int by_wine = code == 0 && cases[i].code == (DWORD)STATUS_CONTROL_C_EXIT; /* it tells no more */
+        const int by_wine = code == 0 && cases[i].code == (DWORD)STATUS_CONTROL_C_EXIT; /* it reports no more */
         if ((code != cases[i].code && !by_wine) || is_zeroed != 1) {
             fail_msg("%s: ended with %#lx, zeroed: %d", cases[i].how, (unsigned long)code, is_zeroed);
         }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs a Windows program under wine, in a prefix of the build's own and without a display.  usage: wine.sh PROGRAM...
-# What it prints comes at its end, by way of a file: wine's own processes, which stay a while, would hold a pipe open.
+# Runs a Windows program under wine, in the build's own prefix and without a display.  usage: wine.sh PROGRAM...
+# Prints its output at its end, through a file: wine's own processes, which stay for a while, would keep a pipe open.
 here=$(cd "$(dirname "$0")" && pwd)
 export WINEPREFIX="$here/../../build/windows/wine" WINEDEBUG=-all WINEDLLOVERRIDES='mscoree,mshtml,winedbg.exe='
 unset DISPLAY WAYLAND_DISPLAY

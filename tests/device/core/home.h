@@ -32,7 +32,7 @@ typedef struct home {
     uint64_t write_order; /* index of the last write and close: */
     uint64_t close_order;
     uint32_t inside; /* threads that read or write now */
-    uint32_t crowds; /* times that it was more than one */
+    uint32_t crowds; /* times that there was more than one */
     uint32_t late_calls;
     uint32_t strangers; /* reads and writes on other threads than the first one's */
     uintptr_t thread;

@@ -70,7 +70,7 @@ TEST(a_force_that_is_written_between_two_exchanges_goes_out_with_the_next_one) {
             sleep_ns(10000);
         }
         worst = now_ns() - written > worst ? now_ns() - written : worst;
-        sleep_ns(370000); /* anywhere in a period */
+        sleep_ns(370000); /* at any time in a period */
     }
     knurl_device_close(device);
     assert_true(worst <= PERIOD_NS + 10000);

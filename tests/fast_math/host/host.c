@@ -1,6 +1,6 @@
-/* A host's program, compiled with whatever flags the host likes: bad input, and strokes over gratings with positions
- * that are no numbers among them. Prints every result and every force, bit for bit. Its own numbers are made of
- * integers and powers of two, which no flag rounds differently. SPDX-License-Identifier: MIT */
+/* A host's program, compiled with the host's flags: bad input, and strokes over gratings with some positions that are
+ * not finite. Prints every result and every force, bit for bit. Its own numbers are made of integers and powers of two,
+ * which no flag rounds differently. SPDX-License-Identifier: MIT */
 #include <knurl/knurl.h>
 
 #include <stdio.h>
@@ -173,7 +173,7 @@ static knurl_result add_plane(knurl_scene *scene, const knurl_material_desc *mat
     return knurl_scene_add_surface(scene, &surface, NULL);
 }
 
-/* 1 mm below where a plane would be, back and forth in x at 0.13 m/s, with pauses and slips to nowhere. */
+/* 1 mm below a plane, back and forth in x at 0.13 m/s, with pauses and invalid positions. */
 static void place(int tick, double position[3]) {
     const int phase = tick % 400;
     position[0] = (double)(phase < 200 ? phase - 100 : 300 - phase) / 8192.0;
@@ -217,7 +217,7 @@ static int stroke(int32_t method, int is_sheet) {
 }
 
 int main(void) {
-#if defined(__x86_64__) || defined(__i386__) /* what gcc -ffast-math links in sets this for the whole process */
+#if defined(__x86_64__) || defined(__i386__) /* code linked by gcc -ffast-math sets this for the whole process */
     (void)fprintf(stderr, "subnormal numbers are %s\n", __builtin_ia32_stmxcsr() & 0x8040u ? "flushed to 0" : "kept");
 #endif
     give_bad_input();

@@ -1,6 +1,6 @@
 /* A program of one version that runs with the library of another (versions.py): presses a smooth plate 1 mm deep. With
- * LATER it is compiled with the headers of a version that is still to come, and uses what is new there if it is told
- * to. usage: client [material | input | function] SPDX-License-Identifier: MIT */
+ * LATER it is compiled with the headers of a future version, and uses its new parts on request. usage: client [material
+ * | input | function] SPDX-License-Identifier: MIT */
 #include <knurl/knurl.h>
 
 #include <stdio.h>
