@@ -2,17 +2,25 @@
 #include "motion/velocity.h"
 
 #include "base/base.h"
+#include "motion/pair.h"
 
-#include <math.h>
+#include <string.h>
 
 /* Of the most that a mean is off: slower is rest, before it becomes a denormal number, which takes ten times as long.
  */
 #define REST 1e-4
 
-/* x within [low, high]; low if x is not a number. */
-static inline double within(double x, double low, double high) {
-    const double above = x > low ? x : low; /* each is one instruction on x86 */
-    return above < high ? above : high;
+/* Moves two axes on by a tick: p, v: measured position and velocity. Returns the tracked position. */
+static inline pair move(knurl_velocity_state *s, int axis, pair p, pair v) {
+    pair mean, tracked;
+    memcpy(&mean, &s->mean[axis], sizeof mean);
+    memcpy(&tracked, &s->tracked[axis], sizeof tracked);
+    const pair next = lesser(greater(mean + s->mean_share * (v - mean), v - s->mean_off), v + s->mean_off);
+    const pair now = (pair)((greater(next, -next) > REST * s->mean_off) & (pair_mask)next); /* else 0 */
+    const pair at = lesser(greater(tracked + now * s->period, p - s->half_count), p + s->half_count);
+    memcpy(&s->mean[axis], &now, sizeof now);
+    memcpy(&s->tracked[axis], &at, sizeof at);
+    return at;
 }
 
 void knurl_velocity_track(knurl_velocity *estimator, const double position[3], const double velocity[3],
@@ -21,7 +29,6 @@ void knurl_velocity_track(knurl_velocity *estimator, const double position[3], c
         return;
     }
     knurl_velocity_state *s = knurl_velocity_get_state(estimator);
-    const double share = s->mean_share, off = s->mean_off, half = s->half_count, period = s->period;
     if (KNURL_UNLIKELY(!s->tracking)) {
         for (int axis = 0; axis < 3; axis++) {
             s->tracked[axis] = position[axis];
@@ -29,12 +36,9 @@ void knurl_velocity_track(knurl_velocity *estimator, const double position[3], c
         }
         s->tracking = 1;
     }
-    for (int axis = 0; axis < 3; axis++) {
-        const double v = velocity[axis], p = position[axis], mean = s->mean[axis];
-        const double next = within(mean + share * (v - mean), v - off, v + off);
-        const double now = fabs(next) > REST * off ? next : 0.0;
-        const double at = within(s->tracked[axis] + now * period, p - half, p + half);
-        s->mean[axis] = now;
-        tracked[axis] = s->tracked[axis] = at;
-    }
+    const pair xy = move(s, 0, (pair){position[0], position[1]}, (pair){velocity[0], velocity[1]});
+    const pair z = move(s, 2, (pair){position[2], 0.0}, (pair){velocity[2], 0.0});
+    tracked[0] = xy[0];
+    tracked[1] = xy[1];
+    tracked[2] = z[0];
 }

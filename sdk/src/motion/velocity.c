@@ -5,6 +5,7 @@
 
 #include "base/finite.h"
 #include "base/handle.h"
+#include "motion/pair.h"
 
 #include <math.h>
 #include <string.h>
@@ -14,9 +15,6 @@
 #define AVX 1
 #else
 #define AVX 0
-#endif
-#if defined(__SSE2__)
-#include <emmintrin.h>
 #endif
 
 /* Positions become fixed point with this many steps a count: positions on an encoder's counts stay exact, others (a
@@ -150,31 +148,6 @@ static const double weights[RING] = WINDOWS(WEIGHT);
 #define TRIED    0x895eu
 #define TRIES(i) (TRIED >> (i) & 1u)
 
-/* GCC's and Clang's vectors of two lanes, native in SSE2 and NEON; the fourth lane is not used. Minimum and maximum are
- * one instruction each on x86, but compilers do not generate it by themselves. */
-typedef double pair __attribute__((vector_size(16)));
-typedef int64_t pair_mask __attribute__((vector_size(16)));
-
-static inline pair choose(pair_mask which, pair yes, pair no) {
-    return (pair)((which & (pair_mask)yes) | (~which & (pair_mask)no));
-}
-
-static inline pair lesser(pair a, pair b) {
-#if defined(__SSE2__)
-    return _mm_min_pd(a, b);
-#else
-    return choose(a < b, a, b);
-#endif
-}
-
-static inline pair greater(pair a, pair b) {
-#if defined(__SSE2__)
-    return _mm_max_pd(a, b);
-#else
-    return choose(a > b, a, b);
-#endif
-}
-
 /* The velocities of two axes. */
 static inline pair foaw_pair(const knurl_velocity_state *velocity, double (*rows)[4], int axis, pair steps) {
     pair held, best = {0.0, 0.0}, low = best - ANY_SLOPE, high = best + ANY_SLOPE;
@@ -205,7 +178,9 @@ static inline pair foaw_pair(const knurl_velocity_state *velocity, double (*rows
     return best * velocity->slope_unit;
 }
 
-static void foaw(knurl_velocity_state *velocity, double (*rows)[4], const double position[3], double out[3]) {
+/* Not inlined, so that its registers are not saved if AVX is used. */
+__attribute__((noinline)) static void foaw(knurl_velocity_state *velocity, double (*rows)[4], const double position[3],
+                                           double out[3]) {
     const pair xy = {position[0] * velocity->steps_per_m, position[1] * velocity->steps_per_m};
     const pair z = {position[2] * velocity->steps_per_m, 0.0};
     const pair first = foaw_pair(velocity, rows, 0, xy);

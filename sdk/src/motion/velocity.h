@@ -17,8 +17,8 @@ typedef struct knurl_velocity_state {
     double rate;        /* update rate, Hz */
     double steps_per_m; /* FOAW: fixed-point steps per metre */
     double slope_unit;  /* FOAW: m/s per step and sample */
-    double tracked[3];  /* tracking: the position, m */
-    double mean[3];     /* tracking: the velocity over some 20 ms, m/s */
+    double tracked[4];  /* tracking: the position, m; x, y, z, 0 */
+    double mean[4];     /* tracking: the velocity over some 20 ms, m/s; x, y, z, 0 */
     double mean_share;  /* tracking: weight of a new velocity in it, 0 to 1 */
     double mean_off;    /* tracking: how far it may be off a new one, m/s */
     double half_count;  /* tracking: m */
