@@ -353,7 +353,7 @@ TEST(unknown_protections_and_clamps_are_refused) {
 static knurl_passivity swinging(void) {
     knurl_passivity p;
     memset(&p, 0, sizeof p);
-    p.longest = 120.0;
+    p.longest = 120;
     p.unit = 1.0;
     p.farthest = 2e-3;
     return p;

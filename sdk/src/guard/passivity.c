@@ -42,7 +42,7 @@
 
 void knurl_passivity_init(knurl_passivity *p, const knurl_hip_facts *facts) {
     memset(p, 0, sizeof *p);
-    p->longest = PERIOD * facts->rate;
+    p->longest = (int32_t)(PERIOD * facts->rate);
     p->softening = 1.0 / (1.0 + SOFTENING_TIME * facts->rate);
     p->off_most = OFF_TIME * facts->rate;
 }

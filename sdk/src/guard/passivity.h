@@ -13,7 +13,6 @@
 typedef struct knurl_passivity {
     double safe;       /* N/m: stiffness up to which a wall is stable and not watched; infinite: protection off */
     double unit;       /* m, scene: a device's metre */
-    double longest;    /* ticks: a longer swing in and out may be a hand's motion */
     double depth;      /* m: of the deepest wall in this tick, after the entry ramp; 0 outside */
     double extreme;    /* m: depth at the last reversal */
     double farthest;   /* m: farthest depth since, in the present direction */
@@ -23,6 +22,7 @@ typedef struct knurl_passivity {
     int32_t crossings; /* zero crossings of H since the last reversal */
     int32_t crossed;   /* and in the half swing before */
     int32_t row;       /* swings in the row, each as large as those before it */
+    int32_t longest;   /* ticks: a longer swing in and out may be a hand's motion */
     int32_t ticks;     /* since the last reversal */
     int32_t before;    /* and in the half swing before */
     int32_t outwards;  /* 1: heading out */
@@ -52,16 +52,19 @@ static inline void knurl_passivity_end_row(knurl_passivity *p) {
 /* Advances by one tick. Only needed while `busy`. */
 static inline void knurl_passivity_follow(knurl_passivity *p) {
     const double beyond = p->outwards ? p->farthest - p->depth : p->depth - p->farthest;
-    p->ticks += !p->alarmed;
     if (KNURL_UNLIKELY(p->alarmed)) {
         knurl_passivity_go_on(p);
-    } else if (beyond > 0.0) {
+        p->depth = 0.0;
+        return;
+    }
+    p->ticks++;
+    if (beyond > 0.0) {
         p->farthest = p->depth;
     } else if (KNURL_UNLIKELY(-beyond > KNURL_PASSIVITY_REVERSAL * p->unit)) {
         knurl_passivity_end_swing(p);
     } else if (p->ticks > p->longest) { /* at rest, or outside */
         knurl_passivity_end_row(p);
-        p->ticks = (int32_t)p->longest;
+        p->ticks = p->longest;
         p->crossings = 0;
         p->moved = 0.0;
         p->busy = p->depth > 0.0;
