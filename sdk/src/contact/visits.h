@@ -16,9 +16,9 @@ typedef struct knurl_visits {
 /* The same for a triangle reached by a walk: in a large mesh each waits for memory whose address the last one held. */
 #define KNURL_VISITS_STEP 9
 
-/* A budget of `count` visits. */
+/* A budget of `count` visits, below UINT32_MAX. */
 static inline knurl_visits knurl_visits_of(uint32_t count) {
-    const knurl_visits visits = {count < UINT32_MAX ? count + 1 : UINT32_MAX, 0};
+    const knurl_visits visits = {count + 1, 0};
     return visits;
 }
 

@@ -83,4 +83,5 @@ void knurl_candidate_note_change(knurl_candidate *candidate, const knurl_surface
     }
     candidate->generation = surface ? surface->generation : candidate->generation;
     candidate->has_previous = 0;
+    candidate->settled = NULL;
 }

@@ -72,8 +72,7 @@ void knurl_candidate_place_anew(knurl_candidate *candidate, const knurl_motion *
 /* Fast path of knurl_candidate_place(): returns 1 if the surface stood still in the last tick and still does. Its pose
  * is motion->end. */
 static inline int knurl_candidate_stands(knurl_candidate *c, const knurl_motion *motion, const knurl_hip_clock *clock) {
-    if (KNURL_LIKELY(c->placed + 1 == clock->tick && c->settled == motion && c->settled_start == motion->start_time &&
-                     c->settled_tick < clock->tick)) {
+    if (KNURL_LIKELY(c->placed + 1 == clock->tick && c->settled == motion && c->settled_start == motion->start_time)) {
         c->placed = clock->tick;
         return 1;
     }

@@ -22,13 +22,13 @@ static inline int query_shape(knurl_contacts *c, knurl_active_contact *a, const 
     return knurl_shape_contact(shape, &query, state, &a->contact);
 }
 
-/* 1 if nothing else can be near a surface's proxy (scene): it is within `margin` (m) of the last tick's proxy. A
- * negative margin uses the clearance instead. */
-static inline int is_within_view(const knurl_contacts *c, double margin, const double proxy[3]) {
-    if (KNURL_LIKELY(margin < 0.0)) {
+/* 1 if nothing else can be near a surface's proxy (scene): it is within `margin` (m) of the last tick's proxy or, if
+ * that is null, within the clearance. */
+static inline int is_within_view(const knurl_contacts *c, const double *margin, const double proxy[3]) {
+    if (KNURL_LIKELY(!margin)) {
         return knurl_candidates_are_clear_of(&c->candidates, proxy);
     }
-    return vec3_distance2(c->proxy.holders ? c->proxy.at : c->previous, proxy) <= margin * margin;
+    return vec3_distance2(c->proxy.holders ? c->proxy.at : c->previous, proxy) <= *margin * *margin;
 }
 
 /* Stage 1 of hold_alone(): the candidate's surface and its pose in this tick. Returns 0 if it was removed, has jumped,
@@ -42,22 +42,22 @@ static inline int place_alone(knurl_contacts *c, const knurl_broad_index *index,
     }
     a->record = __atomic_load_n(&a->surface->record, __ATOMIC_SEQ_CST);
     const knurl_motion *motion = &a->record->motion;
-    if (KNURL_UNLIKELY(!candidate->has_previous || candidate->jumps != motion->jumps)) {
+    if (KNURL_LIKELY(knurl_candidate_stands(candidate, motion, &c->clock))) {
+        a->pose = &motion->end;
+        return 1;
+    }
+    if (!candidate->has_previous || candidate->jumps != motion->jumps) {
         return 0;
     }
-    if (knurl_candidate_stands(candidate, motion, &c->clock)) {
-        a->pose = &motion->end;
-    } else {
-        knurl_contacts_catch_up(c, motion);
-        knurl_candidate_place_anew(candidate, motion, &c->clock, &a->pose, &before);
-    }
+    knurl_contacts_catch_up(c, motion);
+    knurl_candidate_place_anew(candidate, motion, &c->clock, &a->pose, &before);
     return 1;
 }
 
 /* Tests only `candidate`, which is in contact, if nothing else is near the HIP. Returns 0, with the contact unchanged,
  * if joint contact has to decide; the cache then holds the query's result. margin: as for is_within_view(). */
 static inline int hold_alone(knurl_contacts *c, const knurl_broad_index *index, knurl_candidate *candidate,
-                             const double position[3], double margin) {
+                             const double position[3], const double *margin) {
     knurl_active_contact *a = &c->now.list[0];
     knurl_contact_state *state = &candidate->contact;
     double hip[3], proxy[3], normal[3];
@@ -94,6 +94,14 @@ static inline int hold_alone(knurl_contacts *c, const knurl_broad_index *index, 
     a->felt.parts.count = 0;
     c->now.count = 1;
     c->proxy.holders = (uint32_t)state->inside;
+    if (KNURL_LIKELY(state->inside)) {
+        vec3_madd(proxy, a->surface->shape.seam, normal, c->proxy.at);
+        vec3_copy(normal, c->proxy.normal);
+        c->proxy.depth = fabs(a->contact.z);
+    } else {
+        vec3_copy(position, c->proxy.at);
+        c->proxy.depth = 0.0;
+    }
     return 1;
 }
 
@@ -112,19 +120,6 @@ void knurl_contacts_reset(knurl_contacts *c) {
     c->now.count = 0;
     c->proxy.holders = 0;
     c->slip.time = -1.0;
-}
-
-/* Keeps the proxy for the next tick: above the surface that holds the HIP alone, or the HIP itself. */
-static inline void keep_proxy(knurl_contacts *c, const double position[3]) {
-    const knurl_active_contact *a = &c->now.list[0];
-    if (KNURL_LIKELY(c->proxy.holders)) {
-        vec3_madd(a->candidate->proxy, a->surface->shape.seam, a->candidate->normal, c->proxy.at);
-        vec3_copy(a->candidate->normal, c->proxy.normal);
-        c->proxy.depth = fabs(a->contact.z);
-    } else {
-        vec3_copy(position, c->proxy.at);
-        c->proxy.depth = 0.0;
-    }
 }
 
 /* 1 if the path comes near a candidate that is not in contact. */
@@ -211,6 +206,7 @@ __attribute__((noinline)) static void find_jointly(knurl_contacts *c, const knur
                                     : c->proxy.ramped_depth;
     }
     knurl_joint_contact(c, index, &path, flags);
+    c->cache.of = NULL;
     c->proxy.depth = 0.0;
     if (c->proxy.holders) {
         double way[3];
@@ -225,27 +221,24 @@ __attribute__((noinline)) static void find_jointly(knurl_contacts *c, const knur
 
 void knurl_contacts_find(knurl_contacts *c, const knurl_broad_phase *phase, const knurl_broad_index *index,
                          const double position[3], int clear, uint32_t *flags) {
-    double margin = -1.0;
-    c->budget.short_ticks =
-        KNURL_UNLIKELY(c->budget.visits.exhausted) ? c->budget.short_ticks + (c->budget.short_ticks < 5) : 0;
+    double margin;
     c->budget.visits = knurl_visits_of(c->budget.max);
-    c->cache.of = NULL;
     knurl_candidate *alone = KNURL_LIKELY(clear && c->now.count == 1) ? c->now.list[0].candidate : NULL;
     if (KNURL_UNLIKELY(!clear)) {
         alone = update_candidates(c, phase, index, position, &margin);
     }
-    if (KNURL_UNLIKELY(!alone || !hold_alone(c, index, alone, position, margin))) {
+    if (KNURL_UNLIKELY(!alone || !hold_alone(c, index, alone, position, clear ? NULL : &margin))) {
         find_jointly(c, phase, index, position, flags);
-    } else {
-        keep_proxy(c, position);
-        if (KNURL_UNLIKELY(!clear)) {
-            measure_alone(c, alone, position);
-        }
+    } else if (KNURL_UNLIKELY(!clear)) {
+        measure_alone(c, alone, position);
     }
     if (KNURL_UNLIKELY(c->candidates.overflow)) {
         *flags |= KNURL_TICK_CONTACTS_FULL;
     }
     if (KNURL_UNLIKELY(c->budget.visits.exhausted)) {
+        c->budget.short_ticks += c->budget.short_ticks < 5;
         *flags |= KNURL_TICK_VISIT_LIMIT;
+    } else {
+        c->budget.short_ticks = 0;
     }
 }
