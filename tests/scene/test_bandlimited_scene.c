@@ -251,6 +251,24 @@ static void configure_counted(knurl_scene *scene) {
     assert_int_equal(knurl_scene_configure_hip(scene, 0, &desc), KNURL_OK);
 }
 
+/* A HIP at rest whose position was not tracked in the last tick is where it was measured. */
+TEST(an_old_tracked_position_is_not_used_while_an_event_of_s2_plays_on) {
+    surface_parts parts = grating_on(NULL, KNURL_METHOD_BANDLIMITED);
+    SCOPED_SCENE *scene = scene_of(&parts);
+    configure_counted(scene);
+    knurl_tick_output out = slide(scene, 0.0, -DEPTH, 0.0);
+    for (int k = 0; k < 24; k++) {
+        const double x = COUNT * floor(k < 20 ? 0.03 * k : 1.0);
+        out = slide(scene, x, -DEPTH, k < 20 ? 0.03 * COUNT * 1000.0 : k < 22 ? 0.02 : 0.0);
+        if (k == 19 || k == 21) { /* S2 plays an event of 50 ticks, which the smooth surface inherits */
+            set_grating(&parts, k == 19 ? KNURL_METHOD_S2 : KNURL_METHOD_BANDLIMITED, FS, 0.0, k == 19 ? A : 0.0);
+            assert_int_equal(knurl_scene_set_material(scene, out.surface, &parts.material), KNURL_OK);
+        }
+    }
+    assert_true(out.height != 0.0);
+    CHECK_CLOSE(out.cycles[0], FS * COUNT, 1e-12);
+}
+
 /* At rest near an edge of a surface that is moved in tenths of a count, one count to and fro on some axes. Edges are
  * across `along`, along which the surface's coordinate grows by `steep` per metre. */
 static void check_flicker(surface_parts *parts, const double along[3], const double normal[3], double steep,

@@ -98,8 +98,12 @@ static inline int knurl_shape_rates(const knurl_shape *shape, const knurl_contac
     if (shape->plane) {
         return knurl_plane_rates(shape->plane, contact, velocity, rates);
     }
-    const double moving[3] = {velocity[0], velocity[1], velocity[2]}; /* a copy, see force_law.h */
-    return knurl_mesh_rates(shape->geometry, contact, moving, rates);
+    const double moving[3] = {velocity[0], velocity[1], velocity[2]}; /* copies, see force_law.h */
+    double found[2] = {0.0, 0.0};
+    const int has_coordinates = knurl_mesh_rates(shape->geometry, contact, moving, found);
+    rates[0] = found[0];
+    rates[1] = found[1];
+    return has_coordinates;
 }
 
 /* Start of a stroke, as a zeroed contact with proxy, normal, weights and triangle set: on a mesh, the face that a hand

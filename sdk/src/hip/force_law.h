@@ -5,6 +5,7 @@
 
 #include "base/base.h"
 #include "grating/step.h"
+#include "guard/hip_facts.h"
 #include "hip/even.h"
 #include "hip/friction.h"
 #include "proxy/contact_update.h"
@@ -14,9 +15,8 @@
 typedef struct knurl_hip_motion {
     const knurl_hip_clock *clock;
     const double *velocity; /* scene, m/s */
-    double rate;            /* Hz */
-    double resolution;      /* m, device; 0: positions are exact */
-    const double *between;  /* m, scene: from the measured position to the tracked one */
+    const knurl_hip_facts *facts;
+    const double *between; /* m, scene: from the measured position to the tracked one */
     const knurl_even *even;
 } knurl_hip_motion;
 
@@ -57,18 +57,13 @@ static inline void play_grating(const knurl_hip_motion *hip, const knurl_active_
                                 knurl_along velocity, double coordinates[2], const knurl_wall *wall,
                                 knurl_contact_force *out) {
     const knurl_material_desc *m = &c->record->material;
-    if (!c->record->has_grating && !c->candidate->grating.playing) { /* an event plays to its end */
-        const knurl_grating_output none = {.event = KNURL_NO_EVENT};
-        out->grating = none;
-        out->cycles[0] = out->cycles[1] = 0.0;
-        return;
-    }
+    knurl_grating_output played;
     knurl_surface_coordinates(c->surface, c->record, &c->contact, c->begins, &c->candidate->carry, coordinates);
     double rates[2] = {velocity.x, velocity.y};
     int32_t has_position = 1;
     if (knurl_methods[m->method].follows_position) { /* without coordinates the method integrates the velocity */
         has_position = knurl_surface_rates(c->surface, c->record, &c->contact, over, rates);
-        if (hip->resolution > 0.0) {
+        if (hip->facts->resolution > 0.0) {
             add_between(hip->between, c, coordinates);
         }
     }
@@ -83,21 +78,29 @@ static inline void play_grating(const knurl_hip_motion *hip, const knurl_active_
     const knurl_grating grating = {.method = m->method,
                                    .spatial_frequency = {m->spatial_frequency[0], m->spatial_frequency[1]},
                                    .amplitude = amplitude,
-                                   .update_rate_hz = hip->rate,
-                                   .resolution = hip->resolution};
-    knurl_grating_run(&grating, &c->candidate->grating, &at, &out->grating);
+                                   .update_rate_hz = hip->facts->rate,
+                                   .resolution = hip->facts->resolution};
+    knurl_grating_run(&grating, &c->candidate->grating, &at, &played);
+    out->grating = played;
 }
 
-/* The force of one contact. wall: as limited by the protections; its height is set here. */
-static inline void knurl_force_law(const knurl_hip_motion *hip, const knurl_active_contact *c, knurl_wall *wall,
-                                   knurl_contact_force *out) {
+/* The force of one contact. plays: 1: its grating plays. wall: as limited by the protections; its height is set here.
+ */
+static inline void knurl_force_law(const knurl_hip_motion *hip, const knurl_active_contact *c, int plays,
+                                   knurl_wall *wall, knurl_contact_force *out) {
     double over[3], x[3], y[3], coordinates[2] = {0.0, 0.0};
     relative_velocity(hip, c, over);
     knurl_surface_frame(c->surface, c->record, &c->contact, x, y, coordinates);
     const knurl_along velocity = {vec3_dot(over, x), vec3_dot(over, y)};
     out->velocity[0] = velocity.x;
     out->velocity[1] = velocity.y;
-    play_grating(hip, c, over, velocity, coordinates, wall, out);
+    if (plays) {
+        play_grating(hip, c, over, velocity, coordinates, wall, out);
+    } else {
+        const knurl_grating_output none = {.event = KNURL_NO_EVENT};
+        out->grating = none;
+        out->cycles[0] = out->cycles[1] = 0.0;
+    }
     wall->height = out->grating.height;
     vec3_scale(knurl_normal_force(wall, vec3_dot(over, c->contact.normal)), c->normal, out->force);
     if (KNURL_UNLIKELY(c->is_sharp) && c->contact.z < 0.0) { /* ramped as the depth is; a smooth mesh may have none */

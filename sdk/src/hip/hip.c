@@ -99,7 +99,6 @@ knurl_result knurl_hip_set_up(knurl_hip *hip, const knurl_hip_desc *d, const knu
     memset(&made, 0, sizeof made);
     made.given = *d;
     made.given.workspace = NULL; /* the caller's; kept by value below */
-    made.rate = facts.rate;
     result = knurl_velocity_prepare(KNURL_VELOCITY_AUTO, facts.resolution, facts.rate, &made.velocity);
     if (result) {
         return result;

@@ -18,8 +18,7 @@ typedef struct knurl_added_force {
 /* The fields of every tick are together, and the long list of candidates comes last: at 1 kHz all of this is cold in
  * the cache when a tick begins. */
 typedef struct knurl_hip {
-    uint64_t pinned; /* atomic: epoch in which the running tick began; 0: no tick runs */
-    double rate;
+    uint64_t pinned;    /* atomic: epoch in which the running tick began; 0: no tick runs */
     int32_t is_rotated; /* 0: the workspace's rotation is the identity, and is skipped */
     int32_t centred;    /* 1: the scene chooses the workspace at its commit */
     knurl_workspace workspace;

@@ -137,15 +137,15 @@ static void track(knurl_hip *hip, const knurl_tick_input *input) {
     if (hip->tracked_at == tick) {
         return;
     }
-    double *between = hip->between;
+    double tracked[3], between[3];
     knurl_velocity_get_state(&hip->velocity)->tracking = hip->tracked_at + 1 == tick;
     hip->tracked_at = tick;
     knurl_velocity_track(&hip->velocity, input->position, input->has_velocity ? input->velocity : hip->estimate,
-                         between);
-    vec3_sub(between, input->position, between);
-    vec3_scale(hip->workspace.scale, between, between);
+                         tracked);
+    vec3_sub(tracked, input->position, between);
+    vec3_scale(hip->workspace.scale, between, hip->between);
     if (hip->is_rotated) {
-        mat3_mul(hip->workspace.rotation, between, between);
+        mat3_mul(hip->workspace.rotation, hip->between, hip->between);
     }
 }
 
@@ -155,20 +155,21 @@ static inline double render_contact(knurl_hip *hip, const knurl_tick_input *inpu
     if (KNURL_UNLIKELY(c->surface->shape.bulge > 0.0) && !knurl_felt_find(c)) {
         return 0.0;
     }
-    if (hip->facts.resolution > 0.0 && c->record->has_grating &&
-        knurl_methods[c->record->material.method].follows_position) {
+    const int plays = c->record->has_grating || c->candidate->grating.playing; /* an event plays to its end */
+    if (plays && hip->facts.resolution > 0.0 && knurl_methods[c->record->material.method].follows_position) {
         track(hip, input);
     }
-    const knurl_hip_motion motion = {&hip->contacts.clock,  out->hip_velocity, hip->rate,
-                                     hip->facts.resolution, hip->between,      &hip->even};
+    const knurl_hip_motion motion = {&hip->contacts.clock, out->hip_velocity, &hip->facts, hip->between, &hip->even};
     const int64_t events = c->candidate->grating.event_count;
     knurl_wall wall;
     knurl_contact_force share;
     knurl_wall_init(&wall, &c->record->material, c->contact.z, &c->candidate->guard);
     knurl_guard_before(&hip->guard, &wall, &out->flags);
-    knurl_force_law(&motion, c, &wall, &share);
+    knurl_force_law(&motion, c, plays, &wall, &share);
     const double step = knurl_guard_after(&hip->guard, &wall);
-    count_grating(hip, c, &share, events);
+    if (plays) {
+        count_grating(hip, c, &share, events);
+    }
     vec3_madd(sum, 1.0, share.force, sum);
     report_contact(c, &share, out);
     return step;
@@ -184,21 +185,19 @@ static inline int is_at_rest(const knurl_hip *hip, const knurl_added_force *adde
  * force jump. Returns its length, N. */
 static inline double send_force(knurl_hip *hip, double steps, const double force[3], knurl_tick_output *out) {
     const knurl_workspace *w = &hip->workspace;
-    double sent[3];
-    if (KNURL_LIKELY(!hip->is_rotated)) {
-        vec3_copy(force, sent);
-        const double length = knurl_last_stage_limit(&hip->last, hip->guard.gain, steps, sent, &out->flags);
-        vec3_copy(sent, out->force);
-        vec3_copy(sent, out->device_force);
-        return length;
+    double sent[3] = {force[0], force[1], force[2]};
+    if (KNURL_UNLIKELY(hip->is_rotated)) {
+        mat3_mul_transposed(w->rotation, force, sent);
     }
-    knurl_workspace_vector_to_device(w, force, sent);
-    vec3_copy(sent, out->device_force);
-    vec3_copy(force, out->force);
+    const double asked[3] = {sent[0], sent[1], sent[2]};
     const double length = knurl_last_stage_limit(&hip->last, hip->guard.gain, steps, sent, &out->flags);
-    if (vec3_distance2(sent, out->device_force) > 0.0) { /* else rotating it back would only round it */
-        vec3_copy(sent, out->device_force);
+    vec3_copy(sent, out->device_force);
+    if (KNURL_LIKELY(!hip->is_rotated)) {
+        vec3_copy(sent, out->force);
+    } else if (vec3_distance2(sent, asked) > 0.0) {
         mat3_mul(w->rotation, sent, out->force);
+    } else { /* rotating it back would only round it */
+        vec3_copy(force, out->force);
     }
     return length;
 }

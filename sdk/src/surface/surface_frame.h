@@ -29,7 +29,10 @@ static inline void knurl_surface_coordinates(const knurl_surface_data *surface, 
     if (surface->shape.plane) {
         knurl_plane_coordinates(surface->shape.plane, contact, coordinates);
     } else if (surface->shape.is_projected) {
-        knurl_mesh_carry(surface->shape.geometry, contact, begins, carry, coordinates);
+        double carried[2] = {coordinates[0], coordinates[1]}; /* a copy, see force_law.h */
+        knurl_mesh_carry(surface->shape.geometry, contact, begins, carry, carried);
+        coordinates[0] = carried[0];
+        coordinates[1] = carried[1];
     }
     if (record->is_oriented) { /* rotates the frame, so the coordinates rotate back */
         const double c = record->cos_sin[0];
@@ -48,8 +51,12 @@ static inline int knurl_surface_rates(const knurl_surface_data *surface, const k
     if (!knurl_shape_rates(&surface->shape, contact, velocity, straight)) {
         return 0;
     }
-    rates[0] = record->cos_sin[0] * straight[0] + record->cos_sin[1] * straight[1];
-    rates[1] = record->cos_sin[0] * straight[1] - record->cos_sin[1] * straight[0];
+    rates[0] = straight[0];
+    rates[1] = straight[1];
+    if (record->is_oriented) {
+        rates[0] = record->cos_sin[0] * straight[0] + record->cos_sin[1] * straight[1];
+        rates[1] = record->cos_sin[0] * straight[1] - record->cos_sin[1] * straight[0];
+    }
     return 1;
 }
 
