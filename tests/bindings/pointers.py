@@ -1,6 +1,6 @@
 """Writes the table of test_pointers.c: every function of the public headers with valid arguments for each of its
 parameters, so that the test can put a bad pointer in the place of each in turn. A function whose parameters it knows no
-valid argument for is an error here: it is to be told one below. SPDX-License-Identifier: MIT
+valid argument for is an error here: add one below. SPDX-License-Identifier: MIT
 
 usage: pointers.py OUTPUT HEADER...
 """
@@ -9,7 +9,7 @@ import sys
 
 HANDLES = ("scene", "device", "loop", "session", "audio")
 
-# Valid arguments, as members of the test's fixture `f`: by function and parameter, else by parameter and type.
+# Valid arguments, as members of the test's fixture `f`: by function and parameter, otherwise by parameter and type.
 VALUES = {
     "knurl_fail.code": "KNURL_ERROR_STATE",
     "knurl_fail.format": '"why"',
@@ -153,7 +153,8 @@ MAY_BE_NULL = {
     "knurl_session_start.warning", "knurl_session_explain.text", "knurl_session_fault_text.text",
 }
 
-# On the haptic path, and so without a sentence where they return no result; KNURL_NONBLOCKING says so of the others.
+# On the haptic path, and therefore without a message if they return no result; the others are marked with
+# KNURL_NONBLOCKING.
 HAPTIC = {"knurl_device_halt"}
 
 
@@ -192,7 +193,7 @@ def value_of(function, kind, word, parameters):
     if base.startswith("knurl_") and kind.count("*") == 1:
         return "&f->with." + base[len("knurl_"):]
     if (kind, word) == ("uint32_t", "size"):
-        of = [k for k, w in parameters if "*" in k][-1]  # of what stands before it
+        of = [k for k, w in parameters if "*" in k][-1]  # of the pointer before it
         of = of.replace("const", "").replace("*", "").strip()
         return "sizeof f->text" if of == "char" else f"sizeof({of})"
     raise SystemExit(f"pointers.py: {function}: no valid argument is known for {word} ({kind}): add one to VALUES")

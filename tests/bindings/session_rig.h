@@ -9,7 +9,7 @@
 
 #include "base/system.h"
 
-/** What a smooth plate pushes back with, N/m. */
+/** Stiffness of a smooth plate, N/m. */
 #define STIFFNESS 400.0
 
 static inline void scoped_session(knurl_session **s) {
@@ -54,7 +54,7 @@ static inline knurl_surface_id add_plate(knurl_session *s, double x, double y, d
     return add_surface(knurl_session_get_scene(s), &parts);
 }
 
-/** As knurl_session_start(), but what ticks is knurl_loop_step(). */
+/** Like knurl_session_start(), but ticks by knurl_loop_step(). */
 static inline void begin(knurl_session *s) {
     knurl_surface_id outside = 0;
     knurl_loop_desc desc;
@@ -79,14 +79,14 @@ static inline void step(knurl_session *s, uint64_t ticks) {
     assert_int_equal(knurl_loop_step(s->loop, ticks), KNURL_OK);
 }
 
-/** The fake device's HIP stands there for so many ticks; it leaps there, as no hand could. */
+/** Holds the fake device's HIP at a position for some ticks, after a jump that no hand could make. */
 static inline void hold(knurl_session *s, double x, double y, double z, uint64_t ticks) {
     const double row[4] = {0.0, x, y, z};
     assert_int_equal(knurl_fake_set_trace(s->device, row, 1), KNURL_OK);
     step(s, ticks);
 }
 
-/** Touches what lies about (x, y) at z = 0, from above, and stays 1 mm deep in it. */
+/** Touches the surface around (x, y) at z = 0, from above, and stays 1 mm deep in it. */
 static inline void press(knurl_session *s, double x, double y) {
     hold(s, x, y, 0.005, 2);
     hold(s, x, y, -0.001, 10);

@@ -56,7 +56,7 @@ typedef struct parameter {
 typedef struct function {
     const char *name;
     int returns;
-    int is_quiet; /* 1: on the haptic path: a sentence only where it returns a result */
+    int is_quiet; /* 1: on the haptic path: a message only if it returns a result */
     int pointer_count;
     parameter pointers[MOST_PARAMETERS];
     void (*fill)(fixture *f, void **pointers);
@@ -81,7 +81,7 @@ static void ignore_file(void *user, const void *data, uint64_t size) {
 #define FUNCTIONS
 #include "pointers.g.h"
 
-/* In the child, where cmocka would go on with the next test. */
+/* For the child, in which cmocka would continue with the next test. */
 #define NEED(condition)                                                                                                \
     do {                                                                                                               \
         if (!(condition)) {                                                                                            \
@@ -145,7 +145,7 @@ static void fill_structs(fixture *f) {
     NEED_OK(knurl_velocity_prepare(KNURL_VELOCITY_AUTO, 0.0, 1000.0, &w->velocity));
 }
 
-/* Handles that were destroyed, the last of all, so that nothing else has their memory. */
+/* Destroys some handles, as the last action, so that their memory is not reused. */
 static void destroy_some(fixture *f) {
     knurl_scene *scene = NULL;
     knurl_device *device = NULL;
@@ -205,12 +205,12 @@ static const void *handle_of(const fixture *f, int kind) {
                                  : (const void *)f->session;
 }
 
-/* What a function that returns a value says of a handle that is none. */
+/* The value that a function returns for an invalid handle. */
 static int64_t value_of_none(const char *name) {
-    return strcmp(name, "knurl_loop_wait") == 0; /* it is not running: nobody waits for it for ever */
+    return strcmp(name, "knurl_loop_wait") == 0; /* it is not running: an endless wait must not happen */
 }
 
-/* In the child: calls a function with `bad` for one of its pointers. Returns what is wrong with what came of it. */
+/* In the child: calls a function with `bad` for one of its pointers. Returns the fault of the result, or null. */
 static const char *call_with(const function *on, int at, const void *bad, fixture *f) {
     static fixture before;
     void *p[MOST_PARAMETERS] = {NULL};
@@ -265,7 +265,7 @@ enum { BAD_NULL, BAD_KIND, BAD_DESTROYED };
 
 static const char *const bad_names[] = {"null", "a handle of another kind", "a destroyed handle"};
 
-/* One call with a bad pointer in a process of its own. Returns 1 where it crashed. */
+/* One call with a bad pointer in a process of its own. Returns 1 if it crashed. */
 static int try_one(const function *on, int at, int bad, tally *sum) {
     const int kind = on->pointers[at].kind;
     const pid_t child = begin_child();
@@ -323,7 +323,7 @@ TEST(a_handle_that_was_destroyed_is_an_error_that_names_it) {
     try_all(BAD_DESTROYED);
 }
 
-/* Else the calls above might be refused for another reason. */
+/* Otherwise the calls above might be refused for another reason. */
 TEST(the_table_s_arguments_are_valid_but_for_the_one_that_is_replaced) {
     for (size_t i = 0; i < COUNT_OF(functions); i++) {
         const pid_t child = begin_child();

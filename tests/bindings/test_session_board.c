@@ -1,4 +1,4 @@
-/* What the haptic thread leaves for the game. SPDX-License-Identifier: MIT */
+/* The haptic thread's data for the game. SPDX-License-Identifier: MIT */
 #include "board.h"
 
 #include "support/close.h"
@@ -60,7 +60,7 @@ TEST(changes_of_what_is_touched_are_told_once_each) {
     assert_true(met[0] == 204 - count && met[count - 1] == 203);
 }
 
-/* What take() makes of tick n, with a surface of its own: everything else follows from n. */
+/* Checks the record of tick n, which is computed from n. */
 static void check_tick(const knurl_board_tick *now) {
     const double n = (double)now->tick - 1.0;
     CHECK_SAME(now->height, n);

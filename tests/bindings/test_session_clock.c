@@ -35,7 +35,7 @@ static void set_up(rig *r, int32_t method, uint32_t clock) {
     press(r->s, 0.0, 0.0);
 }
 
-/* Goes on to a time, s, and keeps the heights that were felt. */
+/* Advances to a time, s, and records the heights. */
 static void go_to(rig *r, double time) {
     float rows[2 * 256];
     const uint64_t due = (uint64_t)(time * 1000.0 + 1e-9);
@@ -139,7 +139,7 @@ TEST(so_it_is_with_the_default_method) {
     assert_int_equal(failed, 0);
 }
 
-/* What a script moves is moved by each frame's length, and frames are of uneven lengths. */
+/* A script moves objects by each frame's length, and frames have uneven lengths. */
 TEST(what_frames_move_is_felt_evenly) {
     int failed = 0;
     for (size_t i = 0; i < COUNT(frame_rates); i++) {
@@ -172,7 +172,7 @@ TEST(what_moves_more_seldom_than_its_clock_is_felt_evenly) {
     assert_int_equal(check_gaps(&r, "seldom", 60.0, 20.0), 0);
 }
 
-/* Where the engine's clock begins does not matter, nor that it is told in a game that has run for days. */
+/* The start of the engine's clock does not matter, nor days of run time. */
 TEST(a_clock_may_begin_anywhere) {
     rig r;
     set_up(&r, KNURL_METHOD_S1, KNURL_SESSION_STEPS);
@@ -184,7 +184,7 @@ TEST(a_clock_may_begin_anywhere) {
     assert_int_equal(check_gaps(&r, "late", 60.0, 60.0), 0);
 }
 
-/* After a frame of a second, and where the clock was set back, moves are late by no more than two frames again. */
+/* After a frame of a second, or a clock that was set back, moves are again late by no more than two frames. */
 TEST(a_stall_does_not_last) {
     rig r;
     double time = 0.0;

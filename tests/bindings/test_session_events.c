@@ -1,4 +1,4 @@
-/* What a session tells: which touches, buttons and faults, in which order, and what is left of them after its end.
+/* Events of a session: touches, buttons and faults, their order, and those after its end.
  * SPDX-License-Identifier: MIT */
 #include "session_rig.h"
 
@@ -35,7 +35,7 @@ static void press_on(const three *t, int i) {
     press(t->s, 0.2 * i, 0.0);
 }
 
-/* The first plate is touched, and that was told. */
+/* The first plate is touched, and that was reported. */
 static void set_up_touching(three *t, const char *device) {
     set_up(t, device);
     press_on(t, 0);
@@ -43,7 +43,7 @@ static void set_up_touching(three *t, const char *device) {
     check_event(t->s, STARTED, t->plate[0]);
 }
 
-/* Nothing more is told. */
+/* There are no more events. */
 static void check_end(knurl_session *s) {
     check_no_event(s);
     knurl_session_destroy(s);
@@ -112,7 +112,7 @@ TEST(removing_a_surface_ends_its_contact) {
     three t;
     set_up_touching(&t, "fake");
     assert_int_equal(knurl_scene_remove_surface(t.s->scene, t.plate[0]), KNURL_OK);
-    knurl_session_update(t.s); /* the latest tick still has it */
+    knurl_session_update(t.s); /* the last tick still has it */
     check_event(t.s, ENDED, t.plate[0]);
     step(t.s, 1);
     knurl_session_update(t.s);
@@ -322,7 +322,7 @@ TEST(a_frame_ends_however_many_faults_there_are) {
     assert_int_equal(knurl_session_next_event(s, &event), 1);
 }
 
-/* 0.4 N for 0.1 s, and a hand that slides at 50 mm/s: what a body that is touched gets, and a game may ask for. */
+/* 0.4 N for 0.1 s, and a hand that slides at 50 mm/s: the impulse on a touched body, and the state for a game. */
 TEST(state_tells_impulse_velocity_and_depth) {
     static const double rows[8] = {0.0, 0.0, 0.0, -0.001, 1.0, 0.05, 0.0, -0.001};
     const knurl_session_desc desc = describe("fake", "");
@@ -344,7 +344,7 @@ TEST(state_tells_impulse_velocity_and_depth) {
     CHECK_CLOSE(state_of(s).velocity[0], 0.05, 0.005);
 }
 
-/* Whatever is connected to the machine that tests. */
+/* Depends on the devices connected to the test machine. */
 TEST(auto_is_what_is_connected_or_says_that_nothing_is) {
     const knurl_session_desc desc = describe("auto", "");
     SCOPED_SESSION *s = make_session();

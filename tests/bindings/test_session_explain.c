@@ -1,4 +1,4 @@
-/* Sentences for people: why something is not felt, what went wrong. SPDX-License-Identifier: MIT */
+/* Messages: reasons why a surface is not felt, and faults. SPDX-License-Identifier: MIT */
 #include "session_rig.h"
 
 static knurl_surface_id add_at(knurl_session *s, double x, double stiffness) {
@@ -17,13 +17,13 @@ TEST(what_can_be_felt_needs_no_words) {
     const knurl_surface_id plate = add_at(s, 0.0, 300.0);
     const knurl_surface_id far = add_at(s, 5.0, 1e6);
     knurl_session_explain(s, far, text, sizeof text);
-    assert_string_equal(text, ""); /* closed: nobody knows */
+    assert_string_equal(text, ""); /* closed: unknown */
     open_session(s, &desc);
     begin(s);
     knurl_session_explain(s, plate, text, sizeof text);
     assert_string_equal(text, "");
     knurl_session_explain(s, 0, text, sizeof text);
-    assert_string_equal(text, ""); /* what is not there is nothing to explain */
+    assert_string_equal(text, ""); /* no message for a missing surface */
 }
 
 /* The fake device is 0.16 m wide, a plate 0.1 m: they meet up to 0.13 m. */
@@ -63,7 +63,7 @@ TEST(reasons_have_a_line_each) {
 static void check_cuts(const char *whole, uint32_t size, const char *text) {
     const size_t length = strlen(text);
     assert_true(length < size && strncmp(whole, text, length) == 0);
-    assert_true(((unsigned char)whole[length] & 0xC0) != 0x80); /* what follows is no continuation */
+    assert_true(((unsigned char)whole[length] & 0xC0) != 0x80); /* the next byte is not a continuation byte */
     assert_true(length + 4 >= size || length == strlen(whole)); /* no more than that is lost */
 }
 
@@ -140,8 +140,8 @@ TEST(one_that_can_is_not) {
     assert_string_equal(warning, "");
 }
 
-/* A plate at many heights of the fake device's workspace, from -35 to 35 mm: the hand that comes down on it is warned
- * of where the plate is not in there, and not where it lies near an end. */
+/* A plate at many heights of the fake device's workspace, from -35 to 35 mm: there is a warning if the plate is
+ * outside, and none if it is inside but near an end. */
 TEST(a_stroke_that_touches_a_surface_inside_is_not_warned_of) {
     const knurl_session_desc desc = describe("fake", "line");
     for (int mm = -40; mm < 40; mm++) {

@@ -1,4 +1,4 @@
-/* What a game asks of the force beside its surfaces, and a workspace that goes with its node.
+/* A game's control of the force, and a workspace that moves with its node.
  * SPDX-License-Identifier: MIT */
 #include "session_rig.h"
 #include "support/idle_device.h"
@@ -114,7 +114,7 @@ TEST(a_scale_that_changes_carries_the_hip_into_what_it_meets) {
     CHECK_CLOSE(state_of(s).force[2], STIFFNESS * 0.003, 1e-6);
 }
 
-/* The hand goes from 20 mm to 10 mm meanwhile; on it goes from where the HIP stayed, twice as far as the hand. */
+/* The hand moves from 20 mm to 10 mm meanwhile; then the HIP moves from its place, twice as far as the hand. */
 TEST(a_scale_that_changes_with_the_clutch_leaves_the_hip) {
     SCOPED_SESSION *s = pressed();
     const knurl_workspace to = at(0.0, 0.0, 2.0);
@@ -138,7 +138,7 @@ TEST(a_scale_that_is_none_is_refused) {
     CHECK_VECTOR(state_of(s).hip, 0.0, 0.0, -0.005, 1e-9);
 }
 
-/* The hand goes 30 mm to the left with the clutch held; then as far to the right without. */
+/* The hand moves 30 mm to the left with the clutch on; then as far to the right without it. */
 TEST(a_clutch_lets_the_hand_go_back_while_the_hip_stays) {
     SCOPED_SESSION *s = pressed();
     hold(s, 0.02, 0.0, -0.005, 100);
@@ -154,7 +154,7 @@ TEST(a_clutch_lets_the_hand_go_back_while_the_hip_stays) {
     CHECK_VECTOR(state_of(s).hip, 0.04, 0.0, -0.005, 1e-9);
 }
 
-/* A quarter turn about z of the node: what the clutch has moved the workspace by is turned along. */
+/* A quarter turn about z of the node: the clutch's offset of the workspace turns with it. */
 TEST(what_a_clutch_has_moved_goes_with_the_node) {
     static const double quarter[9] = {0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0};
     knurl_workspace to = at(0.0, 0.0, 1.0);

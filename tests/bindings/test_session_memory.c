@@ -1,10 +1,10 @@
-/* A session where memory is short, and what it asks of the heap in a frame. Linked with --wrap for the functions that
- * give memory (CMakeLists.txt). SPDX-License-Identifier: MIT */
+/* A session when memory runs out, and its allocations in a frame. Linked with --wrap for the allocating functions
+ * (CMakeLists.txt). SPDX-License-Identifier: MIT */
 #include "session_rig.h"
 
 #include <stdlib.h>
 
-static int64_t requests, held, refused; /* refused: which request gets nothing; 0: none */
+static int64_t requests, held, refused; /* refused: the allocation that fails; 0: no allocation */
 
 static int is_refused(void) {
     return __atomic_add_fetch(&requests, 1, __ATOMIC_RELAXED) == refused;
@@ -64,7 +64,7 @@ static knurl_result live(const char *device, int plays) {
 
 static void check_failures(const char *device, int plays) {
     refused = 0;
-    assert_int_equal(live(device, plays), KNURL_OK); /* what is made once in a process */
+    assert_int_equal(live(device, plays), KNURL_OK); /* allocations made once per process */
     const int64_t before = held;
     int failures = 0;
     for (int64_t i = 1;; i++) {
@@ -78,7 +78,7 @@ static void check_failures(const char *device, int plays) {
         if (!was_reached) {
             break;
         }
-        if (result) { /* some do without, as a list of what is to be given back early */
+        if (result) { /* some allocations are optional, such as a list of objects to free early */
             failures++;
             assert_true(result == KNURL_ERROR_MEMORY || result == KNURL_ERROR_SYSTEM); /* no memory, or no thread */
             assert_string_not_equal(knurl_error_message(), "stale message");

@@ -45,7 +45,7 @@ TEST(a_steady_motion_lags_25_ms_behind) {
         move_x(&r, 1e-4 * tick); /* 0.1 m/s */
         x = read_x(&r);
     }
-    CHECK_CLOSE(0.0999 - x, 0.1 * 0.025, 0.1 * 0.0011); /* the target stands still within a tick */
+    CHECK_CLOSE(0.0999 - x, 0.1 * 0.025, 0.1 * 0.0011); /* the target is constant within a tick */
     knurl_device_close(r.device);
 }
 

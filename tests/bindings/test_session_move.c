@@ -32,7 +32,7 @@ static double plate_after(rig *r, uint64_t ticks) {
     return state_of(r->s).proxy[2];
 }
 
-/* The plate comes up evenly, and is there after `ticks`: looked at half way, where being a tick off is seen. */
+/* The plate rises evenly, and arrives after `ticks`: checked half way, where an error of one tick is visible. */
 static void check_way(rig *r, double from, double to, double ticks) {
     const uint64_t half = (uint64_t)(0.5 * ticks);
     const double share = (double)half / ticks;

@@ -1,4 +1,4 @@
-/* What a session plays along a path is what a loop gives that is stepped by hand. SPDX-License-Identifier: MIT */
+/* A session plays the same forces along a path as a loop that is stepped by hand. SPDX-License-Identifier: MIT */
 #include "session_rig.h"
 
 enum { TICKS = 600 };

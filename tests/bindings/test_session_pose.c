@@ -1,4 +1,4 @@
-/* An engine's matrix as a position, a rotation and what is baked. SPDX-License-Identifier: MIT */
+/* An engine's matrix as a position, a rotation and the baked rest. SPDX-License-Identifier: MIT */
 #include "session.h"
 
 #include "support/close.h"
@@ -72,7 +72,7 @@ TEST(random_matrices_are_split) {
         }
         if (fabs(determinant(left)) > 0.01) {
             const knurl_session_pose p = check_split(matrix);
-            CHECK_CLOSE(determinant(p.rest), determinant(left), 1e-9); /* so its sign tells of a mirror */
+            CHECK_CLOSE(determinant(p.rest), determinant(left), 1e-9); /* so its sign shows a mirror */
         }
     }
 }

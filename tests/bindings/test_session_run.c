@@ -1,4 +1,4 @@
-/* Sessions whose haptic thread runs, on virtual time: what is waited for comes, or never does.
+/* Sessions with a running haptic thread, on virtual time: an awaited event comes, or never does.
  * SPDX-License-Identifier: MIT */
 #include "session_rig.h"
 
@@ -17,7 +17,7 @@ static int feels_nothing(const knurl_session *s) {
     return state.force[0] == 0.0 && state.force[1] == 0.0 && state.force[2] == 0.0;
 }
 
-/* 1 once the event was told; others before it are thrown away. */
+/* 1 once the event was reported; earlier ones are dropped. */
 static int is_told(knurl_session *s, int32_t kind, int32_t code) {
     knurl_session_event event;
     while (knurl_session_next_event(s, &event)) {
@@ -54,7 +54,7 @@ TEST(a_stroke_over_the_first_surface_is_felt_and_told) {
     check_no_event(s);
 }
 
-/* No update is needed in a pause: a heartbeat that is not asked for is no fault. */
+/* No update is needed in a pause: a missing heartbeat is no fault then. */
 TEST(a_pause_takes_the_force_away_and_its_end_brings_it_back) {
     knurl_session_desc desc = describe("fake", "rest");
     desc.heartbeat_s = 0.1;
@@ -139,7 +139,7 @@ static uint64_t count_absences(knurl_session *s) {
     return stats.absences;
 }
 
-/* What was not moved yet is not silent: there is nothing to be heard. */
+/* A mouse that was not moved yet is not silent: it has no positions. */
 TEST(a_mouse_is_nowhere_until_it_moves_and_then_feels) {
     static const double above[3] = {0.0, 0.0, 0.01};
     static const double below[3] = {0.0, 0.0, -0.001};
@@ -147,7 +147,7 @@ TEST(a_mouse_is_nowhere_until_it_moves_and_then_feels) {
     SCOPED_SESSION *s = make_session();
     (void)add_plate(s, 0.0, 0.0, 0.0);
     run(s, &desc);
-    while (count_absences(s) < 30) { /* silence is told after 10 */
+    while (count_absences(s) < 30) { /* silence is reported after 10 */
         knurl_system_sleep_until_ns(knurl_system_now_ns() + 1000000);
     }
     assert_true(state_of(s).ticks == 0 && feels_nothing(s));

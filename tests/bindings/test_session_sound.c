@@ -22,7 +22,7 @@ static knurl_sound *sound_of(knurl_session *s) {
     return sound;
 }
 
-/* The loudest of the samples of so many periods of 10 ms, in which the finger goes on by `step` (m) each. */
+/* The loudest sample of some periods of 10 ms, with a motion of `step` (m) each. */
 static float play(knurl_session *s, knurl_sound *sound, double step, int periods) {
     static double x;
     float samples[441];

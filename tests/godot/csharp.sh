@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The add-on's C#, and what its README shows of it, is what the class reference says, and compiles as C# 7 against
-# stand-ins for the engine's. Exit 77: no mono.
+# The add-on's C# and the examples in its README match the class reference, and compile as C# 7 against stand-ins for
+# the engine's. Exit 77: no mono.
 # usage: csharp.sh FOLDER
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Holds the class reference against what the engine finds in the classes: every property, method and signal is described,
-# and nothing else is. usage: documents.sh LIBRARY FOLDER     Exit 77: there is no engine, see run.sh.
+# Compares the class reference with the engine's view of the classes: exactly their properties, methods and signals are
+# described. usage: documents.sh LIBRARY FOLDER     Exit 77: there is no engine, see run.sh.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
@@ -22,7 +22,7 @@ import pathlib
 import sys
 import xml.etree.ElementTree as tree
 
-# What an element says beyond its description; the engine is asked for the same.
+# An element's attributes; compared with the engine's.
 KEYS = {"member": ("name", "type", "setter", "getter", "default"), "method": ("name",), "signal": ("name",),
         "param": ("name", "type"), "return": ("type",)}
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Runs the tests of the Godot extension in the real engine, headless: every test_*.gd of this folder, or those named.
-# usage: run.sh LIBRARY KNURL FOLDER [SCRIPT...]     FOLDER: where the project is put together
+# usage: run.sh LIBRARY KNURL FOLDER [SCRIPT...]     FOLDER: for the project
 # A script passes when it exits with 0, prints its closing line with nothing failed, and no error that it did not
 # announce. Exit 77: there is no engine (KNURL_GODOT_ROOT, or build/godot-engine, as bindings/godot/engine/fetch.sh
 # makes it).

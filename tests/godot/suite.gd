@@ -1,5 +1,5 @@
-# What every test script builds on: checks that are counted, frames that are waited for, scenes that are stroked.
-# A script overrides `tests()`, or `benchmark()`; the closing line is what run.sh looks for.
+# Base of all test scripts: counts checks, waits for frames, strokes scenes. A script overrides
+# `tests()`, or `benchmark()`; run.sh reads the closing line.
 extends SceneTree
 
 var passed := 0
@@ -18,7 +18,7 @@ func check_near(what: String, found: float, expected: float, tolerance: float) -
 	check(what, absf(found - expected) <= tolerance, "%s instead of %s" % [found, expected])
 
 
-# An error that is to come: run.sh takes one line with this text out of what it finds.
+# Announces an error: run.sh ignores one line with this text.
 func expect_error(part: String) -> void:
 	print("expected error: ", part)
 

@@ -55,7 +55,7 @@ func hints() -> void:
 	d.free()
 
 
-# What completion, the class reference and typed scripts see.
+# Types for completion, the class reference and typed scripts.
 func types() -> void:
 	var found := {}
 	for method in ClassDB.class_get_method_list(&"KnurlDevice", true):

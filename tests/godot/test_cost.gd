@@ -1,6 +1,7 @@
 extends "res://suite.gd"
 
-# What the binding costs the game's thread in a frame: 100 surfaces, of which 10 move. Goal: 50 us. Printed, not
+# Cost of the binding on the game's thread per frame: 100 surfaces, of which 10 move. Goal: 50 us.
+# Printed, not
 # asserted: machines differ.
 
 const SURFACES := 100
@@ -13,11 +14,11 @@ func percentile(times: Array, share: float) -> float:
 	return times[int(share * (times.size() - 1))]
 
 
-# The device's part of a frame as the engine would ask for it, without the script's own moving.
+# The device's part of a frame, called like the engine does, without the script's own moves.
 func frame(device: Node3D, moving: Array, step: int) -> float:
 	for s in moving:
 		s.get_parent().position.y = -0.02 + 0.001 * sin(0.1 * step)
-		s.force_update_transform() # the engine tells what has moved; this is its own cost
+		s.force_update_transform() # the engine sends its notifications of moves; this is its own cost
 	var begin := Time.get_ticks_usec()
 	device.notification(Node.NOTIFICATION_INTERNAL_PROCESS)
 	return float(Time.get_ticks_usec() - begin)

@@ -152,7 +152,7 @@ func pauses_and_hangs() -> void:
 	clear()
 
 
-# A paused tree leaves the device's node out; what is touched ends all the same, and is told.
+# A paused tree does not process the device's node; contacts end all the same, with a signal.
 func a_paused_tree_ends_what_is_touched() -> void:
 	var d := make_device("fake", "rest")
 	var s := make_surface(plate())

@@ -13,7 +13,7 @@ func long_plate() -> PlaneMesh:
 	return mesh
 
 
-# The gaps between ridges in what was felt last, in ticks, the shortest and the longest 2 % left out: this machine's own
+# The gaps between ridges in the last ticks, in ticks, without the shortest and longest 2 %, because
 # threads are late now and then. [shortest, longest]
 func gaps(device: Node3D, ticks: int) -> Array:
 	var rows: PackedFloat32Array = device.get_history(ticks)
@@ -64,7 +64,7 @@ func tests() -> void:
 		Engine.max_fps = rates[0]
 		Engine.physics_ticks_per_second = rates[1]
 		var found := []
-		for attempt in 3: # a machine that stands still for a while is another matter
+		for attempt in 3: # because the machine may stall
 			found = await slide(AnimatableBody3D.new(), true)
 			if found[0] >= 9 and found[1] <= 11:
 				break

@@ -1,7 +1,7 @@
 extends "res://suite.gd"
 
-# What a game asks of the force beside its surfaces: a gain, a force, vibrations, layers, a clutch; and a workspace that
-# goes with its node. A wall of 400 N/m, 1 mm deep, gives 0.4 N.
+# A game's control of the force: gain, added force, vibrations, layers, clutch; and a workspace that
+# moves with its node. A wall of 400 N/m, 1 mm deep, gives 0.4 N.
 
 
 func wall(at := Vector3.ZERO) -> Node3D:
@@ -101,7 +101,8 @@ func layers() -> void:
 	clear()
 
 
-# The simulated hand stands still at the workspace's origin; the node takes it down, 1 mm into the wall, and away.
+# The simulated hand rests at the workspace's origin; the node moves it down, 1 mm into the wall,
+# and away.
 func follows() -> void:
 	wall()
 	var d := make_device("fake")

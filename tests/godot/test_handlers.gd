@@ -24,7 +24,7 @@ var ways := {
 	"start_failed": "nonsense",
 }
 
-# What ends a contact.
+# Ends of a contact.
 var ends := {
 	"by switching it off": func() -> void: surface.enabled = false,
 	"by stop()": func() -> void: device.stop(),
@@ -58,7 +58,7 @@ var deeds := {
 }
 
 var emitter: Node3D
-var locked := [] # what the engine refuses to free
+var locked := [] # objects that the engine refuses to free
 
 
 func free_it(node: Variant) -> void:
@@ -102,7 +102,8 @@ func build(uri: String) -> void:
 	device.reparent(holder)
 
 
-# Both fingers, where they are mice, from above onto the plate. A handler may free them meanwhile.
+# Moves both fingers, if they are mice, from above onto the plate. A handler may free them
+# meanwhile.
 func press() -> void:
 	point(0.001)
 	await until(func() -> bool: return mice().all(func(d: Node3D) -> bool: return d.ticks > 5))
@@ -163,7 +164,7 @@ func play(name: String, signal_name: String, uri: String, end: Callable, deed: C
 
 
 func tests() -> void:
-	var only := OS.get_environment("KNURL_TEST_CELL") # to look into one: what it prints
+	var only := OS.get_environment("KNURL_TEST_CELL") # to run only one, with its output
 	for deed: String in deeds:
 		for signal_name: String in ways:
 			var name := "%s: %s" % [signal_name, deed]

@@ -1,7 +1,7 @@
 extends "res://suite.gd"
 
-# What a game does with a device beyond feeling: it looks for one, waits for one, hears of touches where they happen,
-# and has what is touched pushed.
+# A game's use of a device: listing, waiting for one, touch signals at surfaces, pushing touched
+# bodies.
 
 
 func finds_devices() -> void:
@@ -66,7 +66,8 @@ func tells_surfaces() -> void:
 	clear()
 
 
-# A body on which nothing else acts gets the opposite of what the hand got: momentum = the forces' sum over time.
+# A body without other forces gets the opposite of the hand's force: momentum = the forces' sum over
+# time.
 func pushes() -> void:
 	var s := make_surface(plate())
 	var body := RigidBody3D.new()

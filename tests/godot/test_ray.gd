@@ -1,6 +1,6 @@
 extends "res://suite.gd"
 
-# Where a straight line goes through what is felt: what a pointer, a gun or a shadow needs to know.
+# Hits of a line segment on surfaces, for pointers, guns or shadows.
 
 
 func tests() -> void:

@@ -1,7 +1,7 @@
 extends "res://suite.gd"
 
-# A finger rests 1 mm deep in a smooth wall of 400 N/m (0.4 N) while the game does to the wall what games do. It stays in
-# contact, and nobody is told that it ended.
+# A finger rests 1 mm deep in a smooth wall of 400 N/m (0.4 N) while the game edits the wall. It
+# stays in contact, without a signal of its end.
 
 var device: Node3D
 var surface: Node3D
@@ -34,7 +34,7 @@ func stays(what: String, force := 0.4) -> void:
 	check("%s: it goes on pushing" % what, least > 0.5 * force, least)
 	check("%s: as it should" % what, absf(device.force.y - force) < 0.02, device.force)
 	check("%s: no contact ended" % what, told.is_empty(), told)
-	if not told.is_empty(): # else the rest fails along
+	if not told.is_empty(): # otherwise the rest fails, too
 		device.move_hip(Vector3(0, 0.02, 0))
 		await until(func() -> bool: return device.hip_position.y > 0.01)
 		device.move_hip(Vector3(0, -0.001, 0))

@@ -32,7 +32,7 @@ func round_of_a_device() -> void:
 
 
 func devices() -> void:
-	for i in 5: # whatever is made once
+	for i in 5: # for one-time allocations
 		await round_of_a_device()
 	var before := [threads(), handles()]
 	var kib := memory_kib()

@@ -1,7 +1,7 @@
 extends "res://suite.gd"
 
-# Many surfaces: what they cost a game when they enter the tree and when a device starts, and that errors do not drown
-# a log. Times are held against bounds that are some times what a desktop takes.
+# Many surfaces: their cost when they enter the tree and when a device starts, and a limit on logged
+# errors. Bounds on times are a few times those of a desktop.
 
 const MANY := 16000
 

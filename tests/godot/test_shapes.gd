@@ -1,6 +1,7 @@
 extends "res://suite.gd"
 
-# What a scene holds besides MeshInstance3D: a wall of 400 N/m, 1 mm deep, gives 0.4 N wherever its triangles come from.
+# Nodes other than MeshInstance3D: a wall of 400 N/m, 1 mm deep, gives 0.4 N for any source of
+# triangles.
 
 
 func surface_below(parent: Node3D) -> Node3D:

@@ -1,11 +1,11 @@
 extends "res://suite.gd"
 
-# The sound of what a device feels, as it comes out of the engine's mixer (the Dummy driver's, at 44100 Hz).
+# A device's sound at the output of the engine's mixer (the Dummy driver's, at 44100 Hz).
 
 var capture := AudioEffectCapture.new()
 
 
-# What came out in so many seconds: the loudest sample, or INF where one is not finite.
+# The loudest sample in some seconds, or INF if one is not finite.
 func listen(duration: float) -> float:
 	var peak := 0.0
 	capture.clear_buffer()

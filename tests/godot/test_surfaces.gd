@@ -1,7 +1,8 @@
 extends "res://suite.gd"
 
 
-# The force at rest, `depth` m below `at`, after a second: what a wall and its friction-free grating come to there.
+# The force at rest, `depth` m below `at`, after a second: of a wall with a grating without
+# friction.
 func press(at: Vector3, device: Node3D = null) -> Vector3:
 	var d := device if device else make_device()
 	var rows := PackedFloat64Array([0, at.x, at.y + 0.01, at.z, 0.2, at.x, at.y, at.z])
@@ -148,7 +149,7 @@ func again(device: Node3D) -> void:
 	device.move_hip(Vector3(0, -0.001, 0))
 
 
-# A grating's x comes from the uvs (along x here), else from the axis.
+# A grating's x comes from the uvs (along x here), or from the axis.
 func directions() -> void:
 	var d := make_device("fake")
 	d.clamp = false

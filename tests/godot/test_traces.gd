@@ -14,7 +14,7 @@ func largest_difference(a: PackedFloat64Array, b: PackedFloat64Array) -> float:
 	return largest
 
 
-# The demo plate as the engine's own glTF loader brings it, with what its tags say.
+# The demo plate from the engine's own glTF loader, with the values of its tags.
 func build_plate() -> int:
 	var document := GLTFDocument.new()
 	var state := GLTFState.new()

@@ -1,6 +1,6 @@
 extends "res://suite.gd"
 
-# What a developer is told of surfaces that are not felt as they look, or not as asked for: by get_warnings(), which is what
+# Warnings of surfaces that are not felt as they look or by their settings: by get_warnings(), which
 # the editor shows beside a node, and in a game one line each when a device starts.
 
 

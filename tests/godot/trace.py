@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-# A path over the demo plate, and what `knurl run` makes of it, as doubles that a script of the engine reads without
+# A path over the demo plate, and the forces of `knurl run`, as doubles that a script of the engine reads without
 # rounding: FOLDER/trace.bin (t, x, y, z a row) and FOLDER/forces.bin (fx, fy, fz a tick).
 # usage: trace.py KNURL PLATE FOLDER
 import array

@@ -38,7 +38,7 @@ static inline double band_mean(double from, double to) {
     return sum / 4000.0;
 }
 
-/** In A, for d < 1/2: what is played at a phase after a tick that began at another, and how exactly that is known. */
+/** In A, for d < 1/2: the height at a phase after a tick that started at another, and its uncertainty. */
 static inline double band_height(double from, double to, double d, long double *within) {
     const double share = band_fade(d, 0.06, 1.0 / 12.0);
     *within = BAND_EXACT + (share < 1.0 ? BAND_MEAN : 0.0);
@@ -46,7 +46,7 @@ static inline double band_height(double from, double to, double d, long double *
                        : band_harmonics(to, d);
 }
 
-/** A scan that goes on. */
+/** State of a scan. */
 typedef struct band_scan {
     knurl_grating grating;
     knurl_grating_state state;
@@ -66,7 +66,7 @@ static inline band_scan band_on(double fsx, double fsy, double rate, double reso
     return s;
 }
 
-/** One tick. What holds of every one: a height that is finite and within 4/pi A. position may be null. */
+/** One tick. Checks that the height is finite and within 4/pi A. position may be null. */
 static inline double band_step(band_scan *s, const double *position, double vx, double vy) {
     const double velocity[2] = {vx, vy};
     knurl_grating_step(&s->grating, &s->state, position, velocity, &s->out);

@@ -1,5 +1,5 @@
-/* A HIP held still in a wall by a device that tells nothing but where it is and writes down what it is sent: the
- * Touch's 3.3 N, of which its motors hold 0.88 N for ever, with 60 s to warm up. SPDX-License-Identifier: MIT */
+/* A HIP held still in a wall by a device that only has a position and records its forces: the Touch's 3.3 N, 0.88 N
+ * continuous, with a time constant of 60 s. SPDX-License-Identifier: MIT */
 #ifndef KNURL_TEST_BENCH_H
 #define KNURL_TEST_BENCH_H
 
@@ -19,7 +19,7 @@ typedef struct bench {
     uint64_t writes;
     uint64_t writes_left; /* until the device is lost; UINT64_MAX: never */
     uint32_t watches_writes;
-    knurl_tick_output seen; /* by the recorder, latest */
+    knurl_tick_output seen; /* the recorder's last */
     knurl_clock clock;
     int64_t now;
     int64_t late;       /* ns: by so much */

@@ -1,4 +1,4 @@
-/* What unit tests share: cmocka's headers, comparisons, refusals, random numbers.
+/* Shared by unit tests: cmocka's headers, comparisons, refusals, random numbers.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_TEST_CLOSE_H
 #define KNURL_TEST_CLOSE_H
@@ -45,7 +45,7 @@ static inline void check_refusal(knurl_result result, knurl_result expected, con
     }
 }
 
-/** The latest error says so. */
+/** Checks that the last error message contains a word. */
 static inline void check_message(const char *word) {
     if (!strstr(knurl_error_message(), word)) {
         print_error("\"%s\" lacks \"%s\"\n", knurl_error_message(), word);

@@ -5,29 +5,29 @@
 
 #include <knurl/device.h>
 
-/** What can be done to a double. */
+/** Faults of a double. */
 enum {
     DOUBLE_WELL,    /**< nothing; after DOUBLE_UNPLUG: it is plugged in again */
     DOUBLE_UNPLUG,  /**< transfers fail as they do when the cable is pulled */
-    DOUBLE_MUTE,    /**< it takes what is sent and never answers */
+    DOUBLE_MUTE,    /**< it accepts data and never answers */
     DOUBLE_HANG,    /**< a transfer blocks for as long as the driver's own timeout lets it */
     DOUBLE_LATE,    /**< each answer comes 20 ms late */
     DOUBLE_SHORT,   /**< answers are cut off */
     DOUBLE_SPLIT,   /**< answers come in pieces: no fault, nothing may happen */
     DOUBLE_CORRUPT, /**< answers hold random bytes */
-    DOUBLE_NAN,     /**< positions are not finite, where the device can say such a thing */
+    DOUBLE_NAN,     /**< positions are not finite, if the device can send such values */
     DOUBLE_JUMP,    /**< the position is 50 mm off from now on */
     DOUBLE_REFUSE,  /**< the device reports that it will not play the force (too warm, too strong) */
-    DOUBLE_UNHOMED, /**< the device says that it does not know where it is */
-    DOUBLE_OFF,     /**< the device switches its forces off by itself, and says so */
+    DOUBLE_UNHOMED, /**< the device reports that it is not homed */
+    DOUBLE_OFF,     /**< the device switches its forces off by itself, and reports it */
     DOUBLE_FAULT_COUNT
 };
 
 typedef struct device_double {
     const char *name;
     uint32_t faults; /**< bit 1 << DOUBLE_...: those that this device can have */
-    /** A fresh simulated device, homed, at rest near the middle of its workspace, and the driver opened over it.
-     * Null: knurl_error_message() says why. */
+    /** A new simulated device, homed, at rest near the middle of its workspace, with the driver opened on it. Null: see
+     * knurl_error_message(). */
     knurl_device *(*open)(void);
     void (*inject)(int fault); /**< at once, from any thread */
     /** ns on the monotonic clock since when the simulated motors get no force; 0: they get one now. [any thread] */

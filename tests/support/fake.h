@@ -6,7 +6,7 @@
 
 #include <knurl/fake.h>
 
-/** Hz: what the tests run their devices at. */
+/** Hz: the update rate of the tests' devices. */
 #define RATE 1000.0
 
 static inline knurl_device *open_device(const char *uri) {
@@ -19,7 +19,7 @@ static inline knurl_device *open_device(const char *uri) {
     return device;
 }
 
-/** Gives a device a stroke that stands, 1 mm below y = 0, and starts it anew. */
+/** Gives a device a stroke at rest, 1 mm below y = 0, and restarts it. */
 static inline void stand(knurl_device *device) {
     knurl_stroke_desc stroke;
     knurl_stroke_desc_init(&stroke, sizeof stroke);

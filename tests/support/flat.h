@@ -1,5 +1,5 @@
-/* Flat meshes drawn as characters: one cell each, '#' where there is sheet. And what a scene makes of a contact with a
- * mesh, so that a plane can be held against it. SPDX-License-Identifier: MIT */
+/* Flat meshes drawn as characters: one cell each, '#': sheet. And a scene's values for contact with a mesh, to compare
+ * a plane with. SPDX-License-Identifier: MIT */
 #ifndef KNURL_TEST_FLAT_H
 #define KNURL_TEST_FLAT_H
 
@@ -83,7 +83,7 @@ static inline void flat_move(shape *s, const double quaternion[4], const double 
     }
 }
 
-/** Which way x runs at a mesh's contact and where on the grating it is, as a scene has it (without orientation). */
+/** The direction of x at a mesh's contact and its coordinate on the grating, as in a scene (without orientation). */
 static inline void flat_mesh_frame(const knurl_mesh *mesh, const double *axis, const knurl_contact *c, double x[3],
                                    double coordinates[2]) {
     double y[3];
@@ -100,7 +100,7 @@ static inline void flat_mesh_frame(const knurl_mesh *mesh, const double *axis, c
     coordinates[1] = axis ? dot3(c->proxy, y) : place[1];
 }
 
-/** The area that an outline goes round, and how long it is; of a rectangle without one as well. */
+/** The area inside an outline, and its length; also of a rectangle without one. */
 static inline double flat_area(const knurl_plane *plane, double *length) {
     double area = 0.0;
     *length = 4.0 * (plane->half_extents[0] + plane->half_extents[1]);

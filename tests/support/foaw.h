@@ -11,7 +11,7 @@
 /** Fixed-point steps in a count. */
 #define STEPS INT64_C(1024)
 
-/** A backlash of one count: what is held moves only as far as it must to stay within half a count of each position. */
+/** A backlash of one count: the held value moves only as far as needed to stay within half a count of each position. */
 static inline void brute_backlash(const int64_t *x, int64_t *held, size_t count) {
     for (size_t k = 0; k < count; k++) {
         held[k] = k == 0 ? x[0] : held[k - 1];

@@ -1,5 +1,5 @@
-/* What the tests of contact hold the implementation against: distances and crossings worked out the slow way, by other
- * formulas than the library's. SPDX-License-Identifier: MIT */
+/* References for the tests of contact: distances and crossings by brute force, with other formulas than the library's.
+ * SPDX-License-Identifier: MIT */
 #ifndef KNURL_TEST_GEOMETRY_H
 #define KNURL_TEST_GEOMETRY_H
 
@@ -88,7 +88,7 @@ static inline double segment_distance(const double a[3], const double b[3], cons
     return distance3(nearest, p);
 }
 
-/** m from a point to a triangle: to its plane above it, else to the nearest of its three edges. */
+/** m from a point to a triangle: to its plane if above it, otherwise to the nearest of its three edges. */
 static inline double triangle_distance(const double corners[3][3], const double p[3]) {
     double normal[3];
     double offset[3];
@@ -125,7 +125,7 @@ typedef struct crossing {
     int side;      /**< +1: from the front, -1: from behind */
 } crossing;
 
-/** 0 where the segment stays on one side of the triangle's plane. */
+/** 0 if the segment stays on one side of the triangle's plane. */
 static inline int cross_triangle(const double corners[3][3], const double a[3], const double b[3], crossing *out) {
     double normal[3];
     double from[3];

@@ -8,7 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/** The process, not this one, whose descriptor 1 is that file; 0: there is none. */
+/** The process, not this one, whose descriptor 1 is that file; 0: not found. */
 static inline pid_t find_guard(ino_t file) {
     DIR *all = opendir("/proc");
     pid_t found = 0;

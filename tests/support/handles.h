@@ -1,5 +1,5 @@
-/* Scenes and devices that end with their block, the last made first: SCOPED_SCENE *scene = empty_scene(1); and what
- * devices and loops tell. SPDX-License-Identifier: MIT */
+/* Scenes and devices that end with their block, the last made first: SCOPED_SCENE *scene = empty_scene(1); and
+ * information about devices and loops. SPDX-License-Identifier: MIT */
 #ifndef KNURL_TEST_HANDLES_H
 #define KNURL_TEST_HANDLES_H
 

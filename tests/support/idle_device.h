@@ -1,5 +1,5 @@
-/* The functions of a device that stands at its origin, takes any force up to 1 N and does nothing. A test replaces
- * those that matter to it. SPDX-License-Identifier: MIT */
+/* The functions of a device that stays at its origin, accepts any force up to 1 N and does nothing. A test replaces
+ * those that it needs. SPDX-License-Identifier: MIT */
 #ifndef KNURL_TEST_IDLE_DEVICE_H
 #define KNURL_TEST_IDLE_DEVICE_H
 

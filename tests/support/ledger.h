@@ -9,7 +9,7 @@ typedef struct ledger {
     uint64_t bytes;
     int32_t blocks;
     int32_t requests;
-    int32_t refused; /* which request gets nothing, counted from 1; 0: none */
+    int32_t refused; /* the allocation that fails, counted from 1; 0: no allocation */
 } ledger;
 
 static inline void *take(size_t size, size_t alignment, void *user) {

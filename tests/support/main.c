@@ -1,4 +1,4 @@
-/* main() of the programs that have none of their own. SPDX-License-Identifier: MIT */
+/* main() of the programs without their own. SPDX-License-Identifier: MIT */
 #include "support/suite.h"
 
 #include <string.h>

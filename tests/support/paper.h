@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stdint.h>
 
-/** Algorithms 1 and 2 with N = p/q ticks: +1 if (k mod N) < N/2 else -1. p and q below 2^31. */
+/** Algorithms 1 and 2 with N = p/q ticks: +1 if (k mod N) < N/2, otherwise -1. p and q below 2^31. */
 static inline int paper_square(uint64_t tick, uint64_t p, uint64_t q) {
     return 2 * ((tick % p) * q % p) < p ? 1 : -1;
 }
@@ -64,7 +64,7 @@ static inline int64_t paper_t2_below(int64_t milliticks) {
     return 2 * (milliticks / 2000);
 }
 
-/** Algorithm 3 with Eqs. 3 and 4; one even component where the two periods are the same. */
+/** Algorithm 3 with Eqs. 3 and 4; one even component if the two periods are equal. */
 static inline long double paper_t2(uint64_t tick, int64_t milliticks, long double amplitude) {
     const int64_t above = paper_t2_above(milliticks);
     const int64_t below = paper_t2_below(milliticks);

@@ -1,4 +1,4 @@
-/* Where surfaces stand and how they are turned, by other formulas than the library's. SPDX-License-Identifier: MIT */
+/* Positions and rotations of surfaces, by other formulas than the library's. SPDX-License-Identifier: MIT */
 #ifndef KNURL_TEST_POSES_H
 #define KNURL_TEST_POSES_H
 

@@ -1,4 +1,4 @@
-/* A HIP over one shape, moved by hand: what a scene asks of contact/, without the scene.
+/* A HIP over one shape, moved by hand: a scene's calls of contact/, without the scene.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_TEST_PROBE_H
 #define KNURL_TEST_PROBE_H
@@ -9,7 +9,7 @@
 #include "contact/mesh_contact.h"
 #include "contact/plane.h"
 
-/** Where there is no mesh, the plane is in use. */
+/** The plane is used if there is no mesh. */
 typedef struct probe {
     knurl_heap heap;
     knurl_mesh *mesh;
@@ -42,13 +42,13 @@ static inline void probe_free(probe *p) {
     assert_int_equal(p->heap.bytes, 0);
 }
 
-/** The next position asked about is a first one. */
+/** Resets the contact: the next position is a first one. */
 static inline void probe_forget(probe *p) {
     p->query.has_previous = 0;
     memset(&p->state, 0, sizeof p->state);
 }
 
-/** One tick: 1 where there is contact. */
+/** One tick: 1 if there is contact. */
 static inline int probe_at(probe *p, const double hip[3]) {
     memcpy(p->query.hip, hip, sizeof p->query.hip);
     const int held = p->mesh ? knurl_mesh_contact(p->mesh, &p->query, &p->state, &p->contact)
@@ -70,7 +70,7 @@ static inline int probe_to(probe *p, double x, double y, double z) {
     return probe_at(p, hip);
 }
 
-/** 1 where the HIP is held inside (not merely in reach). */
+/** 1 if the HIP is held inside (not merely in reach). */
 static inline int probe_inside(probe *p, const double hip[3]) {
     return probe_at(p, hip) && p->contact.z < 0.0;
 }

@@ -67,7 +67,7 @@ static inline process process_start(const char *const *arguments, const char *st
     return p;
 }
 
-/** Reads what has come; closes a pipe at its end. */
+/** Reads the pending output; closes a pipe at its end. */
 static inline void process_drain(process *p, int which, char **text) {
     char chunk[65536];
     const ssize_t got = read(p->pipes[which], chunk, sizeof chunk);
@@ -83,7 +83,7 @@ static inline void process_drain(process *p, int which, char **text) {
     (*text)[p->sizes[which]] = '\0';
 }
 
-/** Waits for the end and collects what was said. */
+/** Waits for the end and collects the output. */
 static inline void process_finish(process *p) {
     int status = 0;
     const time_t give_up = time(NULL) + PROCESS_PATIENCE;

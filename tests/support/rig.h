@@ -1,5 +1,5 @@
-/* A loop on a test bench: a device that writes down what it is told, a clock that goes as the test says, a callback
- * that gives one force. SPDX-License-Identifier: MIT */
+/* A loop on a test bench: a device that records its forces, a clock controlled by the test, a callback that returns one
+ * force. SPDX-License-Identifier: MIT */
 #ifndef KNURL_TEST_RIG_H
 #define KNURL_TEST_RIG_H
 
@@ -15,10 +15,10 @@
 
 typedef struct rig {
     knurl_device device; /* first: the driver's functions get it */
-    /* What the device was told, and when it goes lost. */
+    /* The device's forces, and the time of its loss. */
     double written[RIG_ROOM][3];
     uint64_t reads, writes, starts;
-    double rate;          /* Hz, of the latest start */
+    double rate;          /* Hz, of the last start */
     uint64_t reads_left;  /* until it is lost; UINT64_MAX: never */
     uint64_t writes_left; /* likewise */
     /* The clock: sleeps end `late` ns after the deadline (0 beyond late_count), each force takes `busy` ns. */
@@ -36,7 +36,7 @@ typedef struct rig {
     uint64_t out_of_order;       /* calls whose tick was not their number */
     uint64_t special_call;       /* at this call `special` is called; UINT64_MAX: never */
     void (*special)(struct rig *rig);
-    uint32_t seen; /* what `special` found out */
+    uint32_t seen; /* result of `special` */
     knurl_loop_desc desc;
     knurl_loop *loop;
 } rig;
@@ -154,7 +154,7 @@ static inline knurl_loop_stats rig_stats(const rig *r) {
     return stats;
 }
 
-/** After the end: no force, whatever the last one was. */
+/** After the end: zero force, after any last force. */
 static inline void rig_check_halted(const rig *r) {
     assert_true(knurl_port_is_halted(&r->device));
 }

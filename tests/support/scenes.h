@@ -67,8 +67,8 @@ static inline knurl_scene *empty_scene(uint32_t hips) {
     return scene;
 }
 
-/** A HIP for hand-computed numbers: device axes are the scene's, no quantisation, hardly a force limit, and no
- * protections: tests put it into walls without a way there. */
+/** A HIP for hand-computed numbers: device axes are the scene's, no quantisation, a very high force limit, and no
+ * protections: tests place it inside walls directly. */
 static inline void configure_plainly(knurl_scene *scene, uint32_t hip) {
     knurl_hip_desc desc;
     knurl_workspace workspace;

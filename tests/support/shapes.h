@@ -18,7 +18,7 @@ typedef struct shape {
     uint32_t index_count;
 } shape;
 
-/** Room for so many vertices and corners, and for one where there are none: calloc() may then give null. */
+/** Room for `vertices` and `corners`, at least one each, because calloc() may return null for 0. */
 static inline shape shape_new(uint32_t vertices, uint32_t corners, int with_uvs) {
     const size_t room = vertices > 0 ? vertices : 1;
     shape s = {calloc(room, 3 * sizeof(float)), with_uvs ? calloc(room, 2 * sizeof(float)) : NULL,
@@ -38,7 +38,7 @@ static inline void shape_free(shape *s) {
 /** One that is freed at the end of its block. */
 #define SCOPED_SHAPE __attribute__((cleanup(shape_free))) shape
 
-/** What a caller hands over. */
+/** The description for a caller. */
 static inline knurl_mesh_desc shape_desc(const shape *s) {
     knurl_mesh_desc desc;
     knurl_mesh_desc_init(&desc, sizeof desc);
@@ -97,7 +97,7 @@ static inline shape shape_sheet(uint32_t nx, uint32_t ny, const double half[2], 
     return s;
 }
 
-/** A box round the origin whose faces look outwards; inwards (the room's inside) where `inwards`. */
+/** A box round the origin whose faces point outwards, or inwards (the inside of a room) if `inwards`. */
 static inline shape shape_box(const double half[3], int inwards) {
     static const uint32_t faces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
                                          {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};

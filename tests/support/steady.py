@@ -1,17 +1,17 @@
 #!/usr/bin/env python3
-"""Runs a test that keeps real time, again where the machine did not keep it.
+"""Runs a test in real time, and repeats it if the machine stalled.
 
 usage: steady.py COMMAND...
 
-Shared machines stand still for tens of milliseconds now and then. Drivers zero the force after 10 ms without a new one,
+Shared machines sometimes stall for tens of milliseconds. Drivers zero the force after 10 ms without a new one,
 as they should, and a test that expected a force then fails for no fault of theirs. While the command runs, a process on
-each CPU watches for how long it is kept waiting. A command that fails is run again, up to ATTEMPTS times, where some CPU
+each CPU measures its stalls. A command that fails is run again, up to ATTEMPTS times, if some CPU
 stood still for NOTICED seconds or more; without that it has failed.
 
-A failure that repeats is a failure, whatever the machine did: halts come at any time, so they fail now this check and now
-that. Where the same check has failed in each of REPEATS attempts (the same line of the same test), the command has
-failed. Only where the attempts have no failing check in common, and each met a halt of FATAL seconds, can nothing be said
-here, and that is a skip (77). Crashes and what sanitizers report are never tried again. SPDX-License-Identifier: MIT
+A failure that repeats is a failure, even if the machine stalled: stalls happen at any time, so they fail different
+checks. If the same check has failed in each of REPEATS attempts (the same line of the same test), the command has
+failed. Only if the attempts have no failing check in common, and each had a stall of FATAL seconds, the result is
+unknown, and that is a skip (77). Crashes and sanitizers' reports are never repeated. SPDX-License-Identifier: MIT
 """
 import mmap
 import os
@@ -29,7 +29,7 @@ FATAL = 0.010  # s: KNURL_LINK_PATIENCE, after which every driver has to zero th
 REPEATS = 3  # attempts that fail at the same check: a failure
 PAUSE = 3.0  # s before the second attempt; twice as long before each further one
 NAP = 0.001
-REPORTED = 66  # ThreadSanitizer's exit code; the others are told to use it too
+REPORTED = 66  # ThreadSanitizer's exit code; the other sanitizers are set to use it, too
 SKIPPED = 77
 
 
@@ -49,8 +49,8 @@ def watch(cpu, page, place):
 
 
 def failing_checks(code, output):
-    """What failed, as a set that can be compared between attempts: cmocka's file:line of each failed test; where there is
-    none (a script's test), the first line that tells of a failure, else the last one, without its numbers; where nothing
+    """The failures, as a set that can be compared between attempts: cmocka's file:line of each failed test; if there is
+    none (a script's test), the first line with a failure, otherwise the last one, without its numbers; where nothing
     was printed, the exit code."""
     lines = [line.strip() for line in output.splitlines() if line.strip()]
     found = {match[1] for line in lines if (match := re.match(r"\[\s*LINE\s*\] --- (\S+:\d+): error", line))}

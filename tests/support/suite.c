@@ -16,7 +16,7 @@ static size_t count;
 static CMFixtureFunction group_setup;
 static CMFixtureFunction group_teardown;
 
-/** Compilers call a file's constructors in any order: what stands above in a file comes first. */
+/** Compilers call a file's constructors in any order: sorts by line. */
 void suite_add(const struct CMUnitTest *test, const char *file, int line) {
     if (count == MOST_TESTS) {
         (void)fprintf(stderr, "%s:%d: more than %d tests in a program\n", file, line, MOST_TESTS);

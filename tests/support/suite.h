@@ -1,5 +1,5 @@
 /* Tests that register themselves: TEST(name) { ... } is run by the program that it is linked into, in the order of its
- * lines. main() comes from the library, where a program has none of its own. SPDX-License-Identifier: MIT */
+ * lines. main() comes from the library if a program has none. SPDX-License-Identifier: MIT */
 #ifndef KNURL_TEST_SUITE_H
 #define KNURL_TEST_SUITE_H
 
@@ -29,15 +29,15 @@ void suite_fixtures(CMFixtureFunction setup, CMFixtureFunction teardown);
 /** Whether a test of that name has registered. */
 int suite_has(const char *name);
 
-/** Runs what has registered; gives cmocka's exit code. For programs with a main() of their own. */
+/** Runs all registered tests; returns cmocka's exit code. For programs with their own main(). */
 int suite_run(const char *name);
 
 #ifdef __cplusplus
 }
 #endif
 
-/** 1 under a sanitizer. What repeats the same code with other numbers takes fewer of them there: each costs four times
- * as much, and the plain run judges them all. */
+/** 1 under a sanitizer. Tests that repeat the same code with other numbers use fewer there: each costs four times as
+ * much, and the plain run covers them all. */
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define SUITE_SANITIZED 1
 #else
@@ -56,7 +56,7 @@ int suite_run(const char *name);
     }                                                                                                                  \
     static void name(void **state __attribute__((unused)))
 
-/** What comes before the first and after the last test of the program; each may be NULL. Once a program. */
+/** Setup before the first and teardown after the last test of the program; each may be NULL. Once per program. */
 #define SUITE_FIXTURES(setup, teardown)                                                                                \
     __attribute__((constructor)) static void suite_registers(void) {                                                   \
         suite_fixtures(setup, teardown);                                                                               \

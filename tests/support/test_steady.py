@@ -12,7 +12,7 @@ import steady
 
 class Steady(unittest.TestCase):
     def run_with(self, *outcomes):
-        """Its exit code where attempts end so, (exit code, halt in s, what was printed) each; how many there were; what
+        """Its exit code for these attempts, (exit code, halt in s, what was printed) each; how many there were; what
         it said. Attempts that print nothing fail at different checks."""
         left = [(*outcome, f"[   LINE   ] --- some_test.c:{place}: error: Failure!")[:3]
                 for place, outcome in enumerate(outcomes)]

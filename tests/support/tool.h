@@ -1,4 +1,4 @@
-/* The command-line tool in a test: run with arguments, its output looked at, a folder for its files.
+/* The command-line tool in a test: run with arguments, its output, a folder for its files.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_TEST_TOOL_H
 #define KNURL_TEST_TOOL_H
@@ -66,7 +66,7 @@ static inline void write_text(const char *path, const char *text) {
     write_file(path, text, strlen(text));
 }
 
-/** The whole file with a 0 behind; the caller frees. Fails where there is none. */
+/** The whole file, ended by a 0; the caller frees it. Fails if there is no file. */
 static inline char *read_file(const char *path) {
     FILE *file = fopen(path, "rb");
     struct stat info;
@@ -138,7 +138,7 @@ static inline double json_number_of(const char *json, const char *key) {
     return strtod(found + strlen(quoted), NULL);
 }
 
-/** Row `row` (0: the one after the header) of a CSV of numbers; cells that are none become NaN. Returns how many. */
+/** Row `row` (0: the one after the header) of a CSV of numbers; empty cells become NaN. Returns the number of cells. */
 static inline size_t csv_row(const char *csv, size_t row, double *cells, size_t room) {
     const char *line = csv;
     for (size_t i = 0; i <= row; i++) {

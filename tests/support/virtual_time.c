@@ -1,9 +1,9 @@
-/* Time that does not pass by itself, for programs whose threads wait on one another: linked in place of the system's
+/* Simulated time, for programs whose threads wait for one another: linked in place of the system's
  * clock, sleep and threads (knurl_virtual_time in CMakeLists.txt; tests and library call the same functions). One
- * thread runs at a time, until it sleeps, joins another or ends; then the one goes on that wakes up first, of several
- * the one that has slept longest, and time is what it slept until. So nothing is waited for, nothing depends on the
- * machine, and every run is the same. A thread that never sleeps stops time: wait with knurl_system_sleep_until_ns(),
- * not by looking at the clock alone. SPDX-License-Identifier: MIT */
+ * thread runs at a time, until it sleeps, joins another or ends; then the thread with the earliest wake-up time
+ * continues, of several the one that has slept longest, and time advances to its wake-up time. So nothing really waits
+ * or depends on the machine, and every run is the same. A thread that never sleeps stops time: wait with
+ * knurl_system_sleep_until_ns(), not by polling the clock alone. SPDX-License-Identifier: MIT */
 #include "base/base.h"
 #include "base/system.h"
 
@@ -18,15 +18,15 @@ typedef struct task {
     void (*entry)(void *argument);
     void *argument;
     knurl_thread *thread; /* null: the program's first */
-    int64_t wakes_at;     /* ns; NEVER: somebody has to wake it */
+    int64_t wakes_at;     /* ns; NEVER: another thread must wake it */
     uint64_t order;       /* of those that wake at the same time */
-    struct task *awaits;  /* the end of this one; null: of none */
+    struct task *awaits;  /* the end of this one; null: of no thread */
     int is_used;
     int has_ended;
     pthread_cond_t turn;
 } task;
 
-static pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER; /* guards all of these; `now` is read by who runs */
+static pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER; /* guards all of these; `now` is read by the running thread */
 static task tasks[MOST_TASKS];                            /* the first: the program's first thread */
 static task *running;
 static uint64_t orders;
@@ -161,7 +161,7 @@ knurl_thread *__wrap_knurl_system_start_thread(void (*entry)(void *argument), vo
     t->argument = argument;
     unlock();
     t->thread = __real_knurl_system_start_thread(run_task, t, stack_bytes);
-    t->is_used = t->thread != NULL; /* whoever else looks at it has to have a turn first */
+    t->is_used = t->thread != NULL; /* other threads can read it only in their turn */
     return t->thread;
 }
 
@@ -181,5 +181,5 @@ void __wrap_knurl_system_join_thread(knurl_thread *thread) {
     }
     unlock();
     __real_knurl_system_join_thread(thread);
-    awaited->is_used = 0; /* its condition stays: nobody waits for it, and the next one makes it anew */
+    awaited->is_used = 0; /* its condition stays: no thread waits for it, and the next one initialises it again */
 }

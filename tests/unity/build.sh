@@ -2,7 +2,7 @@
 # Compiles the stand-ins, the package and its tests, as C# 7 (what Unity 2021.3 and Debian's mcs both know), with
 # warnings as errors. usage: build.sh FOLDER
 # FOLDER/            the package as an editor compiles it, with tests
-# FOLDER/player/     the package as a player has it: without UNITY_EDITOR
+# FOLDER/player/     the package as in a player: without UNITY_EDITOR
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
@@ -17,7 +17,7 @@ if [ ! -e "$package/package.json" ]; then
 fi
 shopt -s nullglob globstar
 
-# compile NAME FOLDER-OF-OUTPUT OPTIONS... -- SOURCES: nothing where there are no sources
+# compile NAME FOLDER-OF-OUTPUT OPTIONS... -- SOURCES: does nothing without sources
 compile() {
     local name=$1 folder=$2 options=()
     shift 2
@@ -49,7 +49,7 @@ if command -v as >/dev/null && command -v ld >/dev/null; then
         exit 1
     fi
 fi
-while read -r shown; do # what its README shows; nobody assigns a serialised field: CS0649
+while read -r shown; do # the examples in its README; serialised fields are not assigned: CS0649
     compile "$(basename "$shown" .cs).dll" "$out" -target:library -nowarn:0649 "${editor[@]}" -r:UnityEngine.dll \
         -r:Knurl.Haptics.dll -- "$shown"
 done < <(/usr/bin/python3 -B "$root/tests/docs/snippets.py" write csharp "$out" bindings/unity)

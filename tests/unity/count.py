@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""What NUnit 2 reports, as "PASSED FAILED SKIPPED"; exit 1 where that is no success.
+"""The result of NUnit 2, as "PASSED FAILED SKIPPED"; exit 1 if it is not a success.
 
 usage: count.py RESULT.xml EXIT-CODE [--one]
 No result, an exit code that no failed test explains, and no test at all each count as a failure; the last not with
---one, where a name was asked for that another assembly has."""
+--one, if the requested name may be in another assembly."""
 import sys
 import xml.etree.ElementTree as tree
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Puts Debian 12's mono and NUnit into FOLDER, with mcs, mono and nunit-console in FOLDER/bin: later systems have dropped
-# NUnit 2 or all of mono, and it runs there as it is. Nothing is installed on the host.
-# usage: mono.sh FOLDER     Does nothing where it is there already. Exit 3: it cannot be had (no network, no apt).
+# Puts Debian 12's mono and NUnit into FOLDER, with mcs, mono and nunit-console in FOLDER/bin: later systems have
+# dropped NUnit 2 or all of mono; these binaries run there unchanged. Nothing is installed on the host.
+# usage: mono.sh FOLDER     Does nothing if it is there already. Exit 3: not available (no network, no apt).
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 [ $# -eq 1 ] || { echo "usage: mono.sh FOLDER" >&2; exit 2; }

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # Builds and runs the Unity package's tests without Unity: NUnit under mono, with stand-ins for the engine.
 # usage: run.sh NATIVE KNURL FOLDER [NAME]
-#   NATIVE  where libknurl_unity.so is (build/release/unity)
+#   NATIVE  the folder of libknurl_unity.so (build/release/unity)
 #   KNURL   the command-line tool, for traces to compare with
-#   FOLDER  where everything is put (build/unity)
+#   FOLDER  for all output (build/unity)
 #   NAME    only this fixture or test, by its full name: Knurl.Tests.Axes
-# Ends with "unity: N passed, N failed, N skipped"; exit 1 on a failure, on an assembly that does not load, or where no
+# Ends with "unity: N passed, N failed, N skipped"; exit 1 on a failure, on an assembly that does not load, or if no
 # test ran; 77 without mono.
 set -uo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
@@ -31,7 +31,7 @@ stranger() { # NAME VERSION [INTERFACE]: without one it is older than interfaces
 }
 stranger stranger 9.8.7 0123456789abcdef && stranger twin "$version" 0123456789abcdef && stranger old 0.0.9 || exit 1
 
-# What the C tool makes of the same paths: see cases/TraceTests.cs.
+# Results of the C tool for the same paths: see cases/TraceTests.cs.
 timeout 120 python3 "$here/traces.py" "$tool" "$root/assets" "$out/traces" || exit 1
 
 export LD_LIBRARY_PATH=$native${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}

@@ -2,7 +2,8 @@
 """Paths over the demo assets, and what `knurl run` makes of them, as doubles that C# reads without rounding:
 FOLDER/NAME.trace.bin (t, x, y, z a row; scene axes) and FOLDER/NAME.forces.bin (fx, fy, fz a tick), for meshes as they are
 and, in NAME.flat.forces.bin, without their normals: engines' own meshes are felt as triangles. Contact begins
-between two ticks, not on one: else an amplitude's rounding to float would decide which, and cycles be counted from there.
+between two ticks, not on one: otherwise an amplitude's rounding to float would decide on which one, and cycles count
+from there.
 
 usage: traces.py KNURL ASSETS FOLDER"""
 import array

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Plays one case of the add-on's tests in the real engine.
 # usage: play.sh CASE ENGINE BUILD_DIR     Exit 77, with the reason: the engine is not there.
-# A script that goes wrong leaves the engine's exit status as it was, or hangs: so every call has an end, a line that
-# tells of an error fails, and the line with the counts has to be there.
+# A failing script does not change the engine's exit status, or hangs: so every call has a timeout, a line with an error
+# fails, and the line with the counts must be present.
 set -euo pipefail
 [ $# -eq 3 ] || { echo "usage: play.sh CASE ENGINE BUILD_DIR" >&2; exit 2; }
 case=$1
@@ -51,7 +51,7 @@ renderer/rendering_method="gl_compatibility"
 CFG
 }
 
-# The assets, and beside each what Knurl's own loader makes of it.
+# The assets, each with the result of Knurl's own loader.
 add_assets() {
     local asset
     for asset in "$root"/assets/*.glb "$root"/assets/*.gltf; do
@@ -61,7 +61,7 @@ add_assets() {
     done
 }
 
-# add_probe SCRIPT: a plugin beside Knurl's that looks at things from inside the editor.
+# add_probe SCRIPT: a plugin beside Knurl's that checks from inside the editor.
 add_probe() {
     mkdir -p "$project/addons/probe"
     cp "$here/cases/probe.cfg" "$project/addons/probe/plugin.cfg"
@@ -102,7 +102,7 @@ play_script() {
     fi
 }
 
-arguments=() # what a script is given
+arguments=() # arguments of a script
 headless=(godot --headless)
 display=(xvfb-do godot --rendering-driver opengl3 --audio-driver Dummy --resolution 640x360)
 
@@ -111,7 +111,7 @@ presets | mouse)
     new_project
     play_script "$case" "${headless[@]}"
     ;;
-tags) # the case writes files, Knurl's own loader says what they are
+tags) # the case writes files, Knurl's own loader gives the expected results
     new_project
     mkdir "$project/files"
     cp "$here/cases/collector.gd" "$project/"
@@ -133,7 +133,7 @@ assets) # loaded while the game runs, and imported by the editor with the plugin
         play 60 "${headless[@]}" --path . --check-only --script "res://$(basename "$script")"
     done <"$project/shown"
     ;;
-warnings) # what a wrong tag says when the editor imports it
+warnings) # the message of a wrong tag at import
     new_project
     cp "$here/cases/wrong_tag.gltf" "$project/"
     play 120 "${headless[@]}" --path . --import
@@ -179,7 +179,7 @@ overlay)
     new_project
     play_script "$case" "${display[@]}"
     ;;
-package) # what a user downloads, in a project that has nothing else
+package) # a user's download, in an empty project
     rm -rf "$project"
     mkdir -p "$project"
     package=${KNURL_GODOT_PACKAGE:-$project.zip} # one that is to be shipped, or one of this build's

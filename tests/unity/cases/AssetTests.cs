@@ -6,7 +6,7 @@ using NUnit.Framework;
 
 namespace Knurl.Tests
 {
-    /// <summary>What KnurlTags finds in the demo assets is what their JSON says.</summary>
+    /// <summary>KnurlTags finds the values in the demo assets' JSON.</summary>
     [TestFixture]
     public class AssetTests : Suite
     {
@@ -38,7 +38,7 @@ namespace Knurl.Tests
             Assert.AreEqual((float)Glb.Value(expected.Tag, "damping", 0.0), found.Damping, what);
             Assert.AreEqual((float)Glb.Value(expected.Tag, "friction", 0.0), found.Friction, what);
             Assert.AreEqual((float)Glb.Value(expected.Tag, "orientation", 0.0), found.Orientation, what);
-            Assert.AreEqual(GratingMethod.Bandlimited, found.Method, what); // none of them names one
+            Assert.AreEqual(GratingMethod.Bandlimited, found.Method, what); // none of them sets a method
             Assert.AreEqual(expected.IsDoubleSided, found.DoubleSided, what);
         }
 

@@ -8,8 +8,8 @@ using UnityEngine;
 
 namespace Knurl.Tests
 {
-    /// <summary>What the package costs a game's thread in a frame. Times are printed, not asserted: machines differ,
-    /// and this is mono with stand-ins, not Unity. What is allocated is asserted.</summary>
+    /// <summary>The package's cost on a game's thread per frame. Times are printed, not asserted, because machines
+    /// differ, and this is mono with stand-ins, not Unity. Allocations are asserted.</summary>
     [TestFixture]
     public class CostTests : PlayerSuite
     {
@@ -104,7 +104,7 @@ namespace Knurl.Tests
                             device.TemporalFrequency + device.Ticks + device.Overruns + device.GetHistory(history);
                 bool isTouching = device.InContact || device.Touched != null || device.Running || float.IsNaN(sum);
                 long more = allocated() - before;
-                if (i >= Frames && faults == told) // what comes before is warm-up
+                if (i >= Frames && faults == told) // earlier frames are warm-up
                 {
                     frames += more > 0 ? 1 : 0;
                     most = Math.Max(most, more);

@@ -6,7 +6,7 @@ using UnityEngine;
 
 namespace Knurl.Tests
 {
-    /// <summary>What changes in a scene while it is felt.</summary>
+    /// <summary>Changes in a scene while it is felt.</summary>
     [TestFixture]
     public class FollowTests : PlayerSuite
     {
@@ -342,8 +342,8 @@ namespace Knurl.Tests
             Assert.AreEqual(made + 2, s.Made);
         }
 
-        /// <summary>A plate slides at 20 mm/s in steps of 20 ms, several frames each: played as they arrive
-        /// it leaps and stands still.</summary>
+        /// <summary>A plate slides at 20 mm/s in steps of 20 ms, several frames each: without interpolation it would
+        /// jump and stop.</summary>
         [Test]
         public void WhatABodyMovesIsFeltToMoveEvenly()
         {

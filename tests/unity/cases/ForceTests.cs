@@ -5,8 +5,8 @@ using UnityEngine;
 
 namespace Knurl.Tests
 {
-    /// <summary>What a game asks of the force beside its surfaces, events at surfaces, and a workspace that goes with its
-    /// object. A smooth wall of 400 N/m, 1 mm deep, gives 0.4 N.</summary>
+    /// <summary>A game's control of the force, events at surfaces, and a workspace that moves with its object. A smooth
+    /// wall of 400 N/m, 1 mm deep, gives 0.4 N.</summary>
     [TestFixture]
     public class ForceTests : PlayerSuite
     {

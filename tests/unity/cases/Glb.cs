@@ -41,7 +41,7 @@ namespace Knurl.Tests
             return from.TryGetValue(key, out value) ? Convert.ToInt32(value) : 0;
         }
 
-        /// <summary>Where an accessor's data begins, and how many elements it has.</summary>
+        /// <summary>The start of an accessor's data, and its number of elements.</summary>
         int Open(int accessor, out int count)
         {
             Dictionary<string, object> a = Object(Array("accessors")[accessor]);
@@ -79,7 +79,7 @@ namespace Knurl.Tests
             internal string Name;
             internal Vector3 Translation;
             internal Dictionary<string, object> Primitive;
-            internal Dictionary<string, object> Tag; // with the keys of "knurl", whichever way they are written
+            internal Dictionary<string, object> Tag; // with the keys of "knurl", in either form
             internal bool IsDoubleSided;
         }
 

@@ -12,8 +12,8 @@ using UnityEngine;
 
 namespace Knurl.Tests
 {
-    /// <summary>Who knows Knurl in one engine knows it in the other: the same names, defaults and units as the class
-    /// reference of Godot's extension, but for what Unity has taken or does another way.</summary>
+    /// <summary>Knurl is the same in both engines: names, defaults and units match the class reference of Godot's
+    /// extension, except for names that Unity uses otherwise.</summary>
     [TestFixture]
     public class GodotTests : Suite
     {

@@ -7,8 +7,8 @@ using Object = UnityEngine.Object;
 
 namespace Knurl.Tests
 {
-    /// <summary>Each event, as it comes about, times each thing that its handler may do to what it knows of: no exception,
-    /// no error, no thread that stays, and another device that goes on.</summary>
+    /// <summary>Each event times each action of its handler: no exception, no error, no thread left, and another device
+    /// continues.</summary>
     [TestFixture]
     public class HandlerDeedTests : PlayerSuite
     {
@@ -102,7 +102,7 @@ namespace Knurl.Tests
             Assert.That(other.StartDevice());
         }
 
-        /// <summary>Both fingers, where they are mice, from above onto the plate.</summary>
+        /// <summary>Moves both fingers, if they are mice, from above onto the plate.</summary>
         void Press()
         {
             Point(0.001f);

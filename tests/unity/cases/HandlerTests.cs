@@ -9,7 +9,7 @@ using Object = UnityEngine.Object;
 
 namespace Knurl.Tests
 {
-    /// <summary>Handlers of a device's events may do what they like.</summary>
+    /// <summary>Handlers of a device's events may take any action.</summary>
     [TestFixture]
     public class HandlerTests : PlayerSuite
     {
@@ -35,7 +35,7 @@ namespace Knurl.Tests
             List<string> told = Listen(d);
             d.contactEnded.AddListener(s =>
             {
-                if (!d.Running && ++starts < 3) // a handler finds a device that is stopped, where that is why
+                if (!d.Running && ++starts < 3) // a handler finds a stopped device if that is the cause
                 {
                     d.StartDevice();
                 }

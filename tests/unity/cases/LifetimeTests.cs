@@ -8,7 +8,7 @@ using Object = UnityEngine.Object;
 
 namespace Knurl.Tests
 {
-    /// <summary>Whatever a game or an editor does: no haptic thread outlives it, and no hand is held.</summary>
+    /// <summary>After any action of a game or an editor, no haptic thread outlives it, and no force remains.</summary>
     [TestFixture]
     public class LifetimeTests : PlayerSuite
     {
@@ -164,7 +164,7 @@ namespace Knurl.Tests
             NoMoreThreadsThan(before);
         }
 
-        // A second look keeps a forgotten handle out of this frame's stack.
+        // A separate function keeps a forgotten handle out of this stack frame.
         static unsafe void Forget(int count)
         {
             for (int i = 0; i < count; i++)
@@ -183,12 +183,12 @@ namespace Knurl.Tests
             int before = Threads();
             Forget(4);
             Assert.That(Threads(), Is.GreaterThanOrEqualTo(before + 4));
-            Forget(1); // mono looks at the stack without types: what lies there is written over
+            Forget(1); // mono scans the stack conservatively: overwrite its content
             Assert.That(Waits(() =>
             {
                 GC.Collect();
                 GC.WaitForPendingFinalizers();
-                return Threads() <= before + 2; // the latest may still be seen from the stack
+                return Threads() <= before + 2; // the last one may still be referenced from the stack
             }), "expected about " + before + " threads, found " + Threads());
             Assert.That(NativeMethods.knurl_session_close_all(), Is.LessThanOrEqualTo(2u));
         }

@@ -10,8 +10,8 @@ using UnityEngine.TestTools;
 
 namespace Knurl.Tests
 {
-    /// <summary>For what takes frames: the player sends a component's messages, as Unity does. Nothing waits for a
-    /// fixed time: a state is polled for, for so long that a host which stalls does not matter.</summary>
+    /// <summary>For tests over several frames: the player sends a component's messages, like Unity. Tests poll for a
+    /// state, with a timeout long enough for stalls of the machine.</summary>
     public abstract class PlayerSuite : Suite
     {
         [SetUp]
@@ -33,7 +33,7 @@ namespace Knurl.Tests
             Assert.That(Player.Until(what), sentence);
         }
 
-        /// <summary>Without frames: for what happens although the game hangs.</summary>
+        /// <summary>Without frames: for events while the game hangs.</summary>
         protected static bool Waits(Func<bool> what)
         {
             DateTime end = DateTime.UtcNow.AddSeconds(20.0);
@@ -145,8 +145,8 @@ namespace Knurl.Tests
             device.MoveHip(new Vector3(0f, -0.001f, 0f));
         }
 
-        /// <summary>What happened to a device, in order, as words; without faults, which a host that stalls brings
-        /// about.</summary>
+        /// <summary>A device's events, in order, as words; without faults, which stalls of the machine may
+        /// cause.</summary>
         protected static List<string> Listen(KnurlDevice device)
         {
             var told = new List<string>();

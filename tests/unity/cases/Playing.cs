@@ -10,7 +10,7 @@ namespace Knurl.Tests
     {
         KnurlDevice device;
 
-        /// <summary>Plays a scene until its device feels something; false where that takes too long.</summary>
+        /// <summary>Plays a scene until its device feels something; false if that takes too long.</summary>
         public bool Play()
         {
             Player.EnterPlayMode();
@@ -34,7 +34,7 @@ namespace Knurl.Tests
             get { return device.Ticks; }
         }
 
-        /// <summary>What an editor does before it unloads the domain.</summary>
+        /// <summary>An editor's actions before it unloads the domain.</summary>
         public void BeforeReload()
         {
             Player.ReloadAssemblies();

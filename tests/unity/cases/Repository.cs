@@ -4,7 +4,7 @@ using System.IO;
 
 namespace Knurl.Tests
 {
-    /// <summary>What run.sh tells of where things are.</summary>
+    /// <summary>Paths from run.sh.</summary>
     internal static class Repository
     {
         static string Variable(string name)

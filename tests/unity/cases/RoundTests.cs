@@ -36,7 +36,7 @@ namespace Knurl.Tests
         public void AHundredRoundsLeaveNothing()
         {
             Player.ExitPlayMode();
-            for (int i = 0; i < 10; i++) // whatever is made once
+            for (int i = 0; i < 10; i++) // for one-time allocations
             {
                 Round();
             }

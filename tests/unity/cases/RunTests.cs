@@ -6,7 +6,7 @@ using UnityEngine;
 
 namespace Knurl.Tests
 {
-    /// <summary>What a device does frame by frame.</summary>
+    /// <summary>Behaviour of a device frame by frame.</summary>
     [TestFixture]
     public class RunTests : PlayerSuite
     {

@@ -5,7 +5,7 @@ using UnityEngine;
 
 namespace Knurl.Tests
 {
-    /// <summary>What of a surface is handed to a scene: coordinates, directions, places.</summary>
+    /// <summary>A surface's data in a scene: coordinates, directions, positions.</summary>
     [TestFixture]
     public class SceneTests : PlayerSuite
     {
@@ -62,7 +62,7 @@ namespace Knurl.Tests
             Until(() => Math.Abs(d.Force.y - 0.3f) < 0.01f, "300 N/m");
         }
 
-        /// <summary>What is put elsewhere past a finger is not felt by it, what moves against it is.</summary>
+        /// <summary>A surface that jumps past a finger is not felt, one that moves against it is.</summary>
         [Test]
         public void TheFirstMoveFarFromTheOriginIsAMotion()
         {

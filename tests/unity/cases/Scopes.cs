@@ -7,8 +7,8 @@ using UnityEngine.TestTools;
 
 namespace Knurl.Tests
 {
-    /// <summary>What Unity's runner does around each test's body: the log of what came before, a set-up's and the last
-    /// tear-down's, is its own, and so is the body's. See LogAssert.</summary>
+    /// <summary>Imitates Unity's runner around each test's body: the logs before it (set-up and last tear-down) and of
+    /// the body are separate scopes. See LogAssert.</summary>
     [AttributeUsage(AttributeTargets.Assembly)]
     public sealed class ScopesAttribute : Attribute, ITestAction
     {

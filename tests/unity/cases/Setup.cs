@@ -7,8 +7,8 @@ using UnityEngine;
 
 namespace Knurl.Tests
 {
-    /// <summary>What Unity does before it runs the package's own tests: its editor loads the package, and they find
-    /// themselves in play mode.</summary>
+    /// <summary>Imitates Unity before the package's own tests: its editor loads the package, and the tests run in play
+    /// mode.</summary>
     [SetUpFixture]
     public class Setup
     {

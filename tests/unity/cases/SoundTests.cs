@@ -6,7 +6,7 @@ using UnityEngine;
 
 namespace Knurl.Tests
 {
-    /// <summary>The sound of what a device feels, as Unity would ask for it.</summary>
+    /// <summary>A device's sound, requested like Unity does.</summary>
     [TestFixture]
     public class SoundTests : PlayerSuite
     {

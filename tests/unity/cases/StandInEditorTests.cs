@@ -7,7 +7,7 @@ using Object = UnityEngine.Object;
 
 namespace Knurl.Tests
 {
-    /// <summary>The editor's stand-ins, against what Unity's manual says of Unity.</summary>
+    /// <summary>The editor's stand-ins against Unity's manual.</summary>
     [TestFixture]
     public class StandInEditorTests : PlayerSuite
     {

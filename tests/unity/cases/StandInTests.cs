@@ -10,7 +10,7 @@ using Object = UnityEngine.Object;
 
 namespace Knurl.Tests
 {
-    /// <summary>The stand-ins themselves, against what Unity's manual says of Unity.</summary>
+    /// <summary>The stand-ins themselves against Unity's manual.</summary>
     [TestFixture]
     public class StandInTests : PlayerSuite
     {
@@ -255,7 +255,7 @@ namespace Knurl.Tests
             Assert.IsNull(holder.AddComponent<OtherKind>());
         }
 
-        /// <summary>Whoever destroys children at once while enumerating them leaves every second one.</summary>
+        /// <summary>Destroying children immediately while enumerating them skips every second one.</summary>
         [Test]
         public void ChildrenAreCountedWhileTheyAreEnumerated()
         {

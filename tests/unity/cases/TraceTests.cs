@@ -46,7 +46,7 @@ namespace Knurl.Tests
             for (int i = 0; i < expected.Length; i++)
             {
                 double difference = Math.Abs(expected[i] - found[i]);
-                if (!(difference <= largest)) // also where it is no number
+                if (!(difference <= largest)) // also true for NaN
                 {
                     largest = difference;
                     tick = i / 3;
@@ -55,7 +55,7 @@ namespace Knurl.Tests
             return largest;
         }
 
-        // The tool puts the device's origin where the surfaces' centre is, which a float cannot say of the handle.
+        // The tool puts the device's origin at the surfaces' centre, which a float cannot represent for the handle.
         [TestCase("plate_1d", 3, 0.0)]
         [TestCase("grid_2d", 1, 0.0)]
         [TestCase("knurled_handle", 1, 1e-12)]

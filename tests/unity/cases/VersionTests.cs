@@ -12,7 +12,7 @@ namespace Knurl.Tests
     [TestFixture]
     public class VersionTests : Suite
     {
-        // What probe/Probe.cs says with the library that lies in `folder`.
+        // The output of probe/Probe.cs with the library in `folder`.
         static List<string> Probe(string folder)
         {
             string path = folder == null ? null : Path.Combine(Repository.Folder, folder);

@@ -7,7 +7,7 @@ using UnityEngine;
 
 namespace Knurl.Cases
 {
-    /// <summary>What inspectors and gizmos draw, as the stand-ins write it down.</summary>
+    /// <summary>The drawing of inspectors and gizmos, recorded by the stand-ins.</summary>
     [TestFixture]
     public sealed class Drawing : Suite
     {
@@ -171,7 +171,7 @@ namespace Knurl.Cases
             GUI.Drawn.Clear();
             Draw(MakeSurface(Plate())); // it is
             Draw(MakeUnreadable("Packages/x/a.fbx", new ModelImporter())); // it is not the project's
-            Draw(MakeUnreadable("Assets/a.xyz", new AssetImporter())); // nobody knows how
+            Draw(MakeUnreadable("Assets/a.xyz", new AssetImporter())); // unknown importer
             CollectionAssert.DoesNotContain(GUI.Drawn, "button Make readable");
         }
 
@@ -236,7 +236,7 @@ namespace Knurl.Cases
             return Gizmos.WireCubes.Single().MultiplyPoint3x4(Vector3.zero);
         }
 
-        /// <summary>Where it is felt: the workspace goes with the object, at the scale of the start.</summary>
+        /// <summary>As felt: the workspace moves with the object, at the scale of the start.</summary>
         [Test]
         public void A_running_devices_box_goes_with_its_object()
         {

@@ -14,7 +14,7 @@ using UnityEngine.TestTools;
 
 namespace Knurl.Cases
 {
-    /// <summary>What somebody meets who has just installed the package: new objects, the mouse, a cursor, pictures, and
+    /// <summary>A new user's first steps: new objects, the mouse, a cursor, pictures, and
     /// the first build.</summary>
     [TestFixture]
     public sealed class FirstMinutes : Suite
@@ -90,7 +90,7 @@ namespace Knurl.Cases
             Assert.IsTrue(made.GetComponent<Collider>() == null);
         }
 
-        /// <summary>The stand-in's camera looks straight ahead, a pixel a millimetre.</summary>
+        /// <summary>The stand-in's camera looks straight ahead, one pixel per millimetre.</summary>
         [Test]
         public void The_mouse_presses_what_is_under_it_and_the_cursor_shows_where()
         {
@@ -115,7 +115,7 @@ namespace Knurl.Cases
             Assert.IsTrue(Player.Until(() => (proxy.transform.position - new Vector3(0.02f, 0.01f, 0.05f)).magnitude
                 < 1e-4f), "the proxy stays outside");
             Assert.Greater(hip.transform.position.z, proxy.transform.position.z + 0.0005f);
-            Input.mousePosition = new Vector3(500f, 10f, 0f); // beside all surfaces it goes on in their plane
+            Input.mousePosition = new Vector3(500f, 10f, 0f); // outside of all surfaces it continues in their plane
             Assert.IsTrue(Player.Until(() => device.HipPosition.x > 0.49f && !device.InContact));
         }
 

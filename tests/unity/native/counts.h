@@ -1,4 +1,4 @@
-/* What a process has of the things that leak. SPDX-License-Identifier: MIT */
+/* Counts of a process's resources that may leak. SPDX-License-Identifier: MIT */
 #ifndef KNURL_TEST_UNITY_COUNTS_H
 #define KNURL_TEST_UNITY_COUNTS_H
 

@@ -1,5 +1,5 @@
-/* A stand-in for Unity as a plugin sees it: it hands out interfaces, and keeps what is logged and marked. And the
- * plugin as Unity and C# see it: a library with functions by name. SPDX-License-Identifier: MIT */
+/* A stand-in for Unity's plugin interface: it provides interfaces, and records logs and markers. And the plugin as
+ * loaded by Unity and C#: a library with functions by name. SPDX-License-Identifier: MIT */
 #ifndef KNURL_TEST_UNITY_ENGINE_H
 #define KNURL_TEST_UNITY_ENGINE_H
 
@@ -25,7 +25,7 @@ typedef struct engine_event {
     uintptr_t thread;
 } engine_event;
 
-/** What the engine offers, and what came. */
+/** The engine's interfaces, and the recorded calls. */
 static struct engine {
     int without_log, without_profiler, unavailable, refuses_markers;
     unity_marker marker;
@@ -41,7 +41,7 @@ static struct engine {
 static void UNITY_CALL engine_log(int type, const char *message, const char *file, int line) {
     assert_non_null(file);
     assert_true(line > 0);
-    assert_null(strpbrk(file, "/\\")); /* nobody's folders */
+    assert_null(strpbrk(file, "/\\")); /* no folders of a developer */
     engine.log_type = type;
     engine.log_count++;
     (void)snprintf(engine.log_text, sizeof engine.log_text, "%s", message);
@@ -66,7 +66,7 @@ static int UNITY_CALL engine_create_marker(const unity_marker **marker, const ch
     assert_int_equal(data_count, 0);
     assert_true(strlen(name) < sizeof engine.marker.name);
     engine.markers++;
-    *marker = &engine.marker; /* also where it then says that it could not */
+    *marker = &engine.marker; /* also if it then fails */
     memcpy(engine.marker.name, name, strlen(name) + 1);
     engine.marker.category = category;
     engine.marker.flags = flags;
@@ -87,7 +87,7 @@ static void *UNITY_CALL engine_get(unsigned long long high, unsigned long long l
 
 static const unity_interfaces engine_interfaces = {NULL, NULL, engine_get, NULL};
 
-/** What is called of the plugin. */
+/** The plugin's functions. */
 typedef struct plugin {
     knurl_library *library;
     void(UNITY_CALL *UnityPluginLoad)(const unity_interfaces *);
@@ -110,7 +110,7 @@ typedef struct plugin {
 
 #define PLUGIN_FIND(name) assert_int_equal(knurl_system_find_function(p.library, #name, &p.name), 1)
 
-/** The library, before the engine has told it anything. */
+/** Opens the library, before UnityPluginLoad(). */
 static inline plugin plugin_open(void) {
     plugin p;
     char why[256] = "";

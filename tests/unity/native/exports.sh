@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The plugin exports what C# declares and what Unity calls, and nothing else; it needs no library that a player may lack.
-# usage: exports.sh PLUGIN MIRROR NM OBJDUMP LIBRARY...      LIBRARY...: those that it may need; none: any
+# The plugin exports only the functions that C# declares or Unity calls; it needs no library that a player may lack.
+# usage: exports.sh PLUGIN MIRROR NM OBJDUMP LIBRARY...      LIBRARY...: those that it may need; without any: no check
 set -euo pipefail
 plugin=$1 mirror=$2 nm=$3 objdump=$4
 shift 4

@@ -1,5 +1,5 @@
-/* Our declarations of Unity's plugin interface against Unity's own headers: most of it fails to compile where they
- * differ. C++, as some of those headers are. SPDX-License-Identifier: MIT */
+/* Our declarations of Unity's plugin interface against Unity's own headers: most of it fails to compile if they differ.
+ * C++, because some of those headers are. SPDX-License-Identifier: MIT */
 #include <cstddef> /* first: Unity's headers use NULL without it */
 #include <cstdio>
 #include <type_traits>

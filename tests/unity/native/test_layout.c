@@ -1,5 +1,5 @@
-/* Where C# expects every field is where this system's compiler puts it. The expectations are the mirror's, reckoned by
- * C#'s rules for sequential layout. SPDX-License-Identifier: MIT */
+/* The offset of every field in C# equals that of this system's compiler. Expected offsets are from the mirror, by C#'s
+ * rules for sequential layout. SPDX-License-Identifier: MIT */
 #include "engine.h"
 #include "layout.g.h"
 

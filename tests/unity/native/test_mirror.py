@@ -1,5 +1,5 @@
-"""The mirror of Knurl's headers is up to date, and whatever could make it wrong is noticed.
-usage: test_mirror.py FOLDER      FOLDER: where copies of the headers are changed
+"""The mirror of Knurl's headers is up to date, and all sources of errors are detected.
+usage: test_mirror.py FOLDER      FOLDER: for changed copies of the headers
 """
 import contextlib
 import importlib.util
@@ -68,7 +68,7 @@ class MirrorTest(unittest.TestCase):
         self.assertIn(f"sdk/include/knurl/scene.h:{at}: ", text)
         self.assertIn(said, text)
 
-    # --- what is committed ---
+    # --- committed files ---
 
     def test_made_anew_it_is_the_same_to_the_byte(self):
         before = [(folder / path).read_bytes() for path in (CS, LAYOUT, EXPORTS)]
@@ -81,7 +81,7 @@ class MirrorTest(unittest.TestCase):
         self.change("sdk/include/knurl/scene.h", "Creates an empty scene.", "Creates a scene without surfaces.")
         self.assertEqual(self.check(), (0, ""))
 
-    # --- what is out of date ---
+    # --- outdated files ---
 
     def test_a_new_field_is_noticed(self):
         self.change("sdk/include/knurl/gltf.h", "uint32_t skipped;", "uint32_t skipped; uint32_t broken;")
@@ -133,7 +133,7 @@ class MirrorTest(unittest.TestCase):
         self.change("sdk/include/knurl/loop.h", "int32_t state; ", "uint32_t state; ")
         self.assertNotEqual(self.mirror.generate()["layout"].split('"')[1], digits)
 
-    # --- what cannot be mirrored ---
+    # --- declarations that cannot be mirrored ---
 
     def test_what_is_of_another_size_on_windows_is_refused(self):
         self.expect_refused("struct knurl_odd {\n    long odd;\n};", "'long'", 1)

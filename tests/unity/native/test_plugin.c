@@ -1,4 +1,4 @@
-/* The plugin's life as Unity lives it: loaded, told of the engine, updated, unloaded, again and again.
+/* The plugin's life in Unity: loaded, initialised, updated, unloaded, repeatedly.
  * SPDX-License-Identifier: MIT */
 #define _DEFAULT_SOURCE 1 /* sigaction() */
 
@@ -17,7 +17,7 @@ static int open_plugin(void **state) {
     return 0;
 }
 
-/* After a test that failed too: no thread goes on in a library that is gone. */
+/* Also after a failed test: no thread may still run in an unloaded library. */
 static int close_plugin(void **state) {
     (void)state;
     engine.at_event = NULL;
@@ -38,7 +38,7 @@ static void wait_for_ticks(knurl_session *session, uint64_t ticks, int with_upda
     assert_true(plugin_state(&p, session).ticks >= ticks);
 }
 
-/* One update with nothing running, which tells who is told of it. */
+/* One update without a running device, to find the used interfaces. */
 static void update_once(void) {
     knurl_session *session = NULL;
     assert_int_equal(p.knurl_session_create(&session), KNURL_OK);
@@ -62,7 +62,7 @@ TEST_WITH(each_update_begins_and_ends_one_marker_on_the_thread_that_asked_for_it
     assert_int_equal(engine.event_count % 2, 0);
     for (int i = 0; i < engine.event_count; i++) {
         assert_ptr_equal(engine.events[i].marker, &engine.marker);
-        assert_int_equal(engine.events[i].event, i % 2); /* 0 begins, 1 ends */
+        assert_int_equal(engine.events[i].event, i % 2); /* 0: start, 1: end */
         assert_true(engine.events[i].thread == knurl_system_thread_id());
     }
     p.knurl_session_destroy(sessions[0]);
@@ -72,7 +72,7 @@ TEST_WITH(each_update_begins_and_ends_one_marker_on_the_thread_that_asked_for_it
 }
 
 static knurl_session *watched;
-static uint32_t known[2]; /* events that a session could tell of when a mark came */
+static uint32_t known[2]; /* number of session events at each marker */
 
 static void ask_for_events(int event) {
     knurl_session_event told;
@@ -161,7 +161,7 @@ static void on_signal(int number) {
     handled++;
 }
 
-/* Else the next signal would run code, on a stack, that is no longer there. */
+/* Otherwise the next signal would run unloaded code on a freed stack. */
 TEST(a_plugin_that_is_unloaded_gives_its_signals_and_its_stack_back) {
     static const int numbers[] = {SIGTERM, SIGSEGV, SIGTSTP, SIGPIPE};
     struct sigaction now;
@@ -189,7 +189,7 @@ TEST(a_plugin_that_is_unloaded_gives_its_signals_and_its_stack_back) {
 
 #endif
 
-/* --- what still runs --- */
+/* --- running sessions --- */
 
 TEST_WITH(sessions_that_run_at_the_unloading_are_closed_and_warned_of, open_plugin, close_plugin) {
     p.UnityPluginLoad(&engine_interfaces);
@@ -229,9 +229,8 @@ TEST_WITH(without_a_log_what_runs_is_closed_all_the_same, open_plugin, close_plu
 
 #define ROUNDS 100
 
-/* What a load may leave. Windows: MinGW's runtime, in the library, does not give back its thread-local storage and
- * locks (3131 bytes, the thread's error message and which one it is among them). Elsewhere: less than the smallest
- * block. */
+/* Bytes that a load may leak. Windows: MinGW's runtime, in the library, does not free its thread-local storage and
+ * locks (3131 bytes, including the thread's error message). Elsewhere: less than the smallest block. */
 #if defined(_WIN32)
 enum { BYTES_LEFT = 3584 };
 #else
@@ -255,7 +254,7 @@ static void play_round(int with_engine) {
 
 TEST(a_hundred_rounds_leave_no_thread_no_handle_and_no_memory) {
     memset(&engine, 0, sizeof engine);
-    for (int i = 0; i < 3; i++) { /* what the system sets up once */
+    for (int i = 0; i < 3; i++) { /* one-time allocations of the system */
         play_round(i % 2);
         (void)count_all();
     }

@@ -7,8 +7,8 @@ import unittest
 
 import package
 
-ASSEMBLIES = {  # the folder, the assembly, what it may refer to
-    "Runtime": ("Knurl.Haptics", ["Unity.InputSystem"]),  # where the project has it
+ASSEMBLIES = {  # folder: the assembly, and allowed references
+    "Runtime": ("Knurl.Haptics", ["Unity.InputSystem"]),  # if the project has it
     "Editor": ("Knurl.Haptics.Editor", ["Knurl.Haptics"]),
     "Tests/Runtime": ("Knurl.Haptics.Tests", ["Knurl.Haptics"]),
     "Tests/Editor": ("Knurl.Haptics.Editor.Tests", ["Knurl.Haptics", "Knurl.Haptics.Editor"]),

@@ -208,7 +208,7 @@ class Packing(package.InFolder):
         done = pack(self.out, self.linux, KNURL_UNITY_ORGANIZATION="42", PATH="/usr/bin:/bin")
         self.expect_nothing_made(done, "Unity's upm is not here to sign with")
         self.write('#!/bin/sh\nmkdir "$6"; echo "$1 $(basename "$2") $3 $4 $5" >"$6/com.knurl.haptics-'
-                   + package.version() + '.tgz"\n', "upm")  # a stand-in that says what it was told
+                   + package.version() + '.tgz"\n', "upm")  # a stand-in that prints its arguments
         os.chmod(os.path.join(self.folder, "upm"), 0o755)
         done = pack(self.out, self.linux, KNURL_UNITY_ORGANIZATION="42", PATH=self.folder + ":" + os.environ["PATH"])
         self.assertIn(".tgz, signed, holds", done.stdout)

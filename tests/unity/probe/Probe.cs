@@ -1,4 +1,4 @@
-// What a game sees of a native library that may be missing, or another's. SPDX-License-Identifier: MIT
+// A game's view of a native library that may be missing or of another version. SPDX-License-Identifier: MIT
 using System;
 using UnityEngine;
 

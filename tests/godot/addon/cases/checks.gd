@@ -1,5 +1,5 @@
 extends RefCounted
-## Counts what holds and what does not; the driver wants the last line.
+## Counts passed and failed checks; the driver reads the last line.
 
 var passed := 0
 var failed := 0

@@ -1,5 +1,5 @@
 extends GLTFDocumentExtension
-## The importer, with what it would warn of kept to be looked at.
+## The importer, with its warnings recorded for checks.
 
 var errors: PackedStringArray = []
 

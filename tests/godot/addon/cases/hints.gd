@@ -1,6 +1,5 @@
 extends SceneTree
-## What the importer's name hints make of tagged meshes: the surface hangs below what is left to
-## feel.
+## The importer's name hints on tagged meshes: the surface is below the node that remains.
 
 var checks: RefCounted = load("res://checks.gd").new()
 

@@ -1,6 +1,6 @@
 @tool
 extends EditorPlugin
-## Looks, in the editor, at files that were imported before Knurl's plugin was on.
+## Checks, in the editor, files that were imported before Knurl's plugin was on.
 
 var checks: RefCounted
 var imported: Array = []

@@ -1,6 +1,6 @@
 extends SceneTree
-## KnurlMouse in a game: a finger that is dragged off an edge leaves it, another mesh is felt where
-## it is, every shape can be pressed, the game's physics sees nothing of it, and a large tree costs
+## KnurlMouse in a game: a finger that is dragged off an edge leaves it, another mesh is felt at its
+## place, every shape can be pressed, the game's physics is not affected, and a large tree costs
 ## nothing.
 
 const DEPTH := 0.0006  # m: KnurlMouse's own
@@ -148,7 +148,7 @@ func press_shape(what: String, node: Node3D) -> void:
 	main.add_child(node)
 	var surface := make_surface(node)
 	await seconds(0.1)
-	surface.call("update_mesh")  # what is built in the first frame
+	surface.call("update_mesh")  # for shapes built in the first frame
 	await seconds(0.1)
 	await press_on(what, Vector3(0, 0.01, 0))
 	point(Vector3.ZERO, false)

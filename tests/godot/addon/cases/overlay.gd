@@ -1,6 +1,6 @@
 extends SceneTree
-## The overlay, drawn: stripes where Eq. 11 has ridges, on uvs and on an axis, turned, as a grid;
-## and off again without a trace. A camera looks straight down on a square plate, a known number of
+## The overlay as drawn: stripes at the ridges of Eq. 11, on uvs and on an axis, turned, as a grid;
+## and removed completely. A camera looks straight down on a square plate, a known number of
 ## pixels to the millimetre.
 
 const PIXELS_PER_MM := 10.0
@@ -53,7 +53,7 @@ func run() -> void:
 	checks.check(surface.get_children().is_empty(), "which is no child that is saved")
 	drawn._material.set_shader_parameter(&"ridge", BRIGHT)
 	drawn._material.set_shader_parameter(&"groove", DARK)
-	# A plane's uvs run from 0 to 1 over its size, so its own corner is where the coordinates begin.
+	# A plane's uvs run from 0 to 1 over its size, so the coordinates start at its corner.
 	var corner := Vector2(0.5 * PLATE, 0.5 * PLATE)
 	await expect("ridges of 2 mm", Vector2(500, 0), 0.0, Vector3.ZERO, corner)
 	await expect("ridges across", Vector2(0, 400), 0.0, Vector3.ZERO, corner)
@@ -77,7 +77,7 @@ func run() -> void:
 	await expect_off(before)
 
 
-## Every pixel of the plate that is not within one of an edge is bright where Eq. 11 is +A, else
+## Every pixel of the plate further than one pixel from an edge is bright if Eq. 11 is +A, otherwise
 ## dark.
 func expect(
 	what: String, frequency: Vector2, orientation: float, axis: Vector3, corner: Vector2

@@ -1,6 +1,6 @@
 extends SceneTree
-## What was unpacked works: the classes are there, a preset loads, and the fake device is played a
-## trace on a plate.
+## The unpacked package works: classes exist, a preset loads, and the fake device plays a trace on a
+## plate.
 
 const K := 700.0  # N/m, of the preset
 const DEPTH := 0.001  # m
@@ -24,7 +24,7 @@ func run() -> void:
 	plate.mesh = mesh
 	var surface: Node3D = ClassDB.instantiate(&"KnurlSurface")
 	surface.set("grating", load("res://addons/knurl/presets/paper_1mm.tres").duplicate())
-	surface.get("grating").set("amplitude", 0.0)  # smooth: Hooke's law is what is expected
+	surface.get("grating").set("amplitude", 0.0)  # smooth: expects Hooke's law
 	plate.add_child(surface)
 	root.add_child(plate)
 	var device: Node3D = ClassDB.instantiate(&"KnurlDevice")

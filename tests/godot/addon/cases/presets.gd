@@ -31,7 +31,7 @@ func _initialize() -> void:
 	checks.finish(self)
 
 
-## What a surface with this grating says while the fake device runs.
+## The warnings of a surface with this grating while the fake device runs.
 func warnings_of(grating: Resource) -> PackedStringArray:
 	var plate := MeshInstance3D.new()
 	var mesh := PlaneMesh.new()

@@ -1,7 +1,7 @@
 @tool
 extends EditorPlugin
-## Looks at Knurl's plugin from inside the editor: button, gizmo, warnings; then ends it. Not while
-## it only imports.
+## Checks Knurl's plugin from inside the editor: button, gizmo, warnings; then ends it. Not during
+## an import.
 
 const FOLDER := "res://addons/knurl/"
 
@@ -70,7 +70,7 @@ func probe_gizmo(device: Node3D) -> void:
 	checks.equal(gizmo.edges_of(AABB(Vector3.ZERO, Vector3.ONE)).size(), 24, "a box has 12 edges")
 
 
-## What only a game tells has no row.
+## Properties that exist only in games have no row.
 func probe_rows(device: Node) -> void:
 	for property: Dictionary in device.get_property_list():
 		if property.name in ["force", "running", "ticks", "hip_position"]:
@@ -102,7 +102,7 @@ func probe_warnings(surface: Node) -> void:
 	checks.equal(labels.size(), 1, "the inspector shows '%s'" % warning)
 
 
-## No device runs here: surfaces are held against the presets of those that stand in the scene.
+## No device runs here: surfaces are checked against the presets of the scene's devices.
 func probe_limits(stage: Node) -> void:
 	var device: Node3D = ClassDB.instantiate(&"KnurlDevice")
 	device.device = "touch"

@@ -1,6 +1,6 @@
 extends SceneTree
 ## Tags, right and wrong, against Knurl's own loader: with "-- write" the files are written, the
-## driver lets `knurl inspect` read each, and the second time what it said is what is expected.
+## driver runs `knurl inspect` on each, and the second run expects its results.
 
 const RIGHT := {"knurl_spatial_frequency": 1000, "knurl_amplitude": 0.0002, "knurl_stiffness": 400}
 const NESTED := {
@@ -174,7 +174,7 @@ func refused(name: String, file: Dictionary, said: String) -> void:
 	scene.free()
 
 
-## The scene, and what the builder had to say about it.
+## The scene, and the builder's errors.
 func generate(file: Dictionary, errors: PackedStringArray) -> Node:
 	var document := GLTFDocument.new()
 	var state := GLTFState.new()

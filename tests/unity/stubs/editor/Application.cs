@@ -1,4 +1,4 @@
-// Test-only stand-ins, never shipped. Told by the player.
+// Test-only stand-ins, never shipped. Notified by the player.
 using System;
 using System.Reflection;
 using System.Runtime.CompilerServices;
@@ -42,7 +42,7 @@ namespace UnityEditor
             };
         }
 
-        /// What the editor does with an assembly that it has loaded.
+        /// The editor's actions with a loaded assembly.
         public static void Load(Assembly assembly)
         {
             const BindingFlags statics = BindingFlags.Static | BindingFlags.Public | BindingFlags.NonPublic;

@@ -1,4 +1,4 @@
-// Test-only stand-ins, never shipped. Assets live in memory; files are only there where a test has written them.
+// Test-only stand-ins, never shipped. Assets are in memory; only files written by a test exist.
 using System;
 using System.Collections.Generic;
 using UnityEngine;
@@ -62,7 +62,7 @@ namespace UnityEditor
 
         static string ParentOf(string path) { return path.Substring(0, path.LastIndexOf('/')); }
 
-        /// An empty string, or what is wrong.
+        /// An empty string, or the error.
         public static string MoveAsset(string from, string to)
         {
             if (!Assets.ContainsKey(from) && !folders.Contains(from))
@@ -104,7 +104,7 @@ namespace UnityEditor
         }
 
         public static bool Contains(UnityEngine.Object asset) { return GetAssetPath(asset).Length > 0; }
-        /// With what is below it. Objects of deleted assets are destroyed.
+        /// Including its content. Objects of deleted assets are destroyed.
         public static bool DeleteAsset(string path)
         {
             bool found = folders.Remove(path);
@@ -127,7 +127,7 @@ namespace UnityEditor
         public static void StopAssetEditing() { }
         public static void ImportAsset(string path) { }
         public static bool IsValidFolder(string path) { return folders.Contains(path); }
-        /// Where the name is taken, the folder's has a number behind it; without its parent there is none.
+        /// If the name is used, the folder's gets a number; without its parent none is made.
         public static string CreateFolder(string parent, string name)
         {
             if (!IsValidFolder(parent))
@@ -183,7 +183,7 @@ namespace UnityEditor
     {
         public string assetPath { get; set; }
         public string userData { get; set; }
-        /// What a test says that imports a path.
+        /// The importer of a path, set by a test.
         public static readonly Dictionary<string, AssetImporter> Importers = new Dictionary<string, AssetImporter>();
         public int Reimports;
         public static AssetImporter GetAtPath(string path)
@@ -371,7 +371,7 @@ namespace UnityEditor
     {
         public static class StageUtility
         {
-            /// The root of the prefab that a test says is open; it becomes the parent.
+            /// The root of the open prefab, set by a test; it becomes the parent.
             public static GameObject Open;
             public static void PlaceGameObjectInCurrentStage(GameObject gameObject)
             {

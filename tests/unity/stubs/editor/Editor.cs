@@ -1,5 +1,5 @@
-// Test-only stand-ins, never shipped. What editors draw is written down in Drawn; fields return what they are given, or
-// what a test has put into Answers under their label.
+// Test-only stand-ins, never shipped. Drawing is recorded in Drawn; fields return their argument, or a test's value in
+// Answers under their label.
 using System;
 using System.Collections.Generic;
 using System.Reflection;
@@ -145,7 +145,7 @@ namespace UnityEditor
         public virtual float GetPropertyHeight(SerializedProperty property, GUIContent label) { return 18f; }
     }
 
-    /// The latest that was shown; a test chooses from it.
+    /// The last one shown; a test chooses from it.
     public sealed class GenericMenu
     {
         public delegate void MenuFunction();
@@ -173,7 +173,7 @@ namespace UnityEditor
         public static void PingObject(UnityEngine.Object o) { }
     }
 
-    /// Writes down what is drawn.
+    /// Records drawing.
     public static class EditorGUILayout
     {
         public static readonly List<string> Drawn = new List<string>();
@@ -259,7 +259,7 @@ namespace UnityEditor
         }
     }
 
-    /// Writes down what is drawn, like Gizmos.
+    /// Records drawing, like Gizmos.
     public static class Handles
     {
         public static Color color { get; set; }

@@ -6,8 +6,9 @@ using UnityEngine;
 
 namespace UnityEditor
 {
-    /// Faithful: values are copies, taken by the constructor and Update() and written by ApplyModifiedProperties(), only
-    /// those that were set; what Unity serialises; values that differ between targets. Not: arrays (shared), nested
+    /// Faithful: values are copies, taken by the constructor and Update() and written by ApplyModifiedProperties(),
+    /// only changed ones; the fields that Unity serialises; values that differ between targets. Not: arrays (shared),
+    /// nested
     /// paths, undo.
     public sealed class SerializedObject : IDisposable
     {
@@ -59,7 +60,7 @@ namespace UnityEditor
         public bool ApplyModifiedPropertiesWithoutUndo() { return ApplyModifiedProperties(); }
         public void Dispose() { }
 
-        /// As in Unity, OnValidate of the targets runs where something has changed.
+        /// As in Unity, OnValidate of the targets runs if something has changed.
         public bool ApplyModifiedProperties()
         {
             bool isChanged = false;

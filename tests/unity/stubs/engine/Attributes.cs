@@ -1,4 +1,4 @@
-// Test-only stand-ins, never shipped. Attributes keep what they are given, for tests and the player to read.
+// Test-only stand-ins, never shipped. Attributes store their arguments, for tests and the player to read.
 using System;
 
 namespace UnityEngine
@@ -74,7 +74,7 @@ namespace UnityEngine
         public AddComponentMenu(string menuName, int order) { componentMenu = menuName; }
     }
 
-    /// The player adds what is required, as Unity does.
+    /// The player adds required components, like Unity.
     [AttributeUsage(AttributeTargets.Class, AllowMultiple = true)]
     public sealed class RequireComponent : Attribute
     {

@@ -8,7 +8,7 @@ namespace UnityEngine
     /// Faithful: its place among the types.
     public class AudioBehaviour : Behaviour { }
 
-    /// Faithful: whether it plays. Not: clips, mixer groups, where it stands.
+    /// Faithful: whether it plays. Not: clips, mixer groups, position.
     public sealed class AudioSource : AudioBehaviour
     {
         public bool isPlaying { get; private set; }
@@ -24,8 +24,8 @@ namespace UnityEngine
 
     public static partial class Player
     {
-        /// What an object's source and filters give, chunk by chunk and with so many channels, on any thread. The object is
-        /// looked at now.
+        /// The output of an object's source and filters, chunk by chunk and with some number of channels, on any
+        /// thread. The object's components are collected now.
         public static Action<float[], int> Audio(GameObject from)
         {
             AudioSource source = from.GetComponent<AudioSource>();

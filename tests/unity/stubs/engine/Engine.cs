@@ -1,4 +1,4 @@
-// Test-only stand-ins, never shipped. What belongs to no object: log, time, application, gizmos.
+// Test-only stand-ins, never shipped. Static parts: log, time, application, gizmos.
 using System;
 using System.Collections.Generic;
 using System.Diagnostics;
@@ -26,7 +26,7 @@ namespace UnityEngine
         public override string ToString() { return Type + ": " + Text; }
     }
 
-    /// Keeps what is logged in Lines, for tests, and tells Application.logMessageReceived.
+    /// Records the log in Lines, for tests, and invokes Application.logMessageReceived.
     public static class Debug
     {
         public static readonly List<LogLine> Lines = new List<LogLine>();
@@ -152,7 +152,7 @@ namespace UnityEngine
         public static void Quit() { }
     }
 
-    /// Records what is drawn.
+    /// Records drawing.
     public static class Gizmos
     {
         public static readonly List<string> Drawn = new List<string>();
@@ -174,7 +174,7 @@ namespace UnityEngine
         public static void DrawWireMesh(Mesh mesh, Vector3 at, Quaternion q) { Drawn.Add("wire mesh " + mesh.name); }
     }
 
-    /// What a test sets is what is read.
+    /// Returns the values that a test sets.
     public static class Input
     {
         public static Vector3 mousePosition { get; set; }
@@ -253,8 +253,8 @@ namespace UnityEngine.TestTools
     using System.Text.RegularExpressions;
 
     /// Faithful: a set-up, a test's body and a tear-down have a scope each (tests/unity/cases/Scopes.cs ends them, as
-    /// Unity's runner does). At its end an error, an assertion or an exception that was not expected fails the test, and
-    /// so does what was expected and has not come; what is expected has to come in that order. NoUnexpectedReceived()
+    /// Unity's runner does). At its end an unexpected error, assertion or exception fails the test, and so does a
+    /// missing expected one; expected ones must come in order. NoUnexpectedReceived()
     /// fails on any line of its own scope that was not expected, plain ones too. Not: frames, UnityTest's scopes.
     public static class LogAssert
     {

@@ -1,6 +1,6 @@
-// Test-only stand-ins, never shipped. Faithful: a listener's exception leaves Invoke and keeps those behind it from
-// being called; who is added during a call is called from the next on; who belongs to a destroyed object is not called;
-// nothing is allocated by a call. Not: listeners that a scene stores.
+// Test-only stand-ins, never shipped. Faithful: a listener's exception leaves Invoke and skips later ones; a listener
+// added during a call is called from the next one on; those of a destroyed object are not called; a call allocates
+// nothing. Not: listeners stored in a scene.
 using System;
 using System.Collections.Generic;
 

@@ -1,5 +1,5 @@
-// Test-only stand-ins, never shipped. Immediate-mode drawing is written down in GUI.Drawn; of buttons
-// those are pressed that a test has put into GUI.Pressed.
+// Test-only stand-ins, never shipped. Immediate-mode drawing is recorded in GUI.Drawn; the buttons in GUI.Pressed, set
+// by a test, are pressed.
 using System.Collections.Generic;
 
 namespace UnityEngine
@@ -96,7 +96,7 @@ namespace UnityEngine
     public sealed class Event
     {
         public static readonly Event current = new Event();
-        public EventType type { get; set; } = EventType.Layout; // a test says what comes
+        public EventType type { get; set; } = EventType.Layout; // set by a test
     }
 
     public static class GL

@@ -8,9 +8,9 @@ using System.Web.Script.Serialization;
 namespace UnityEngine
 {
     /// Faithful: fields by their exact names, public or with SerializeField; of classes and structures only those that are
-    /// Serializable; what is not there keeps what its constructor gave, what has no field is passed over. Not: writing,
-    /// lists, a limit of depth, an error for text that ends too early; a value of another type than its field is passed
-    /// over as well.
+    /// Serializable; missing fields keep their constructor's value, unknown keys are ignored. Not: writing,
+    /// lists, a limit of depth, an error for text that ends too early; a value of another type than its field is also
+    /// ignored.
     public static class JsonUtility
     {
         public static T FromJson<T>(string json) { return (T)FromJson(json, typeof(T)); }
@@ -63,7 +63,7 @@ namespace UnityEngine
             return made;
         }
 
-        /// Null where a field of that type does not take the value.
+        /// Null if a field of that type does not accept the value.
         static object Convert(object value, Type type)
         {
             var members = value as Dictionary<string, object>;

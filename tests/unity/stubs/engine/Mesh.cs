@@ -44,8 +44,8 @@ namespace UnityEngine
         }
     }
 
-    /// Faithful: arrays are copies, what is not readable gives an error and is neither read nor written, submeshes and
-    /// topologies, an error for a submesh that is not there, bounds that indices bring up to date and vertices do not.
+    /// Faithful: arrays are copies, an unreadable mesh gives an error and is neither read nor written, submeshes and
+    /// topologies, an error for a missing submesh, bounds that are updated by indices but not by vertices.
     /// Not: checks of index ranges and of lengths, base vertices (always 0), UV channels beyond 4, compression, GPU
     /// buffers, skins.
     public sealed class Mesh : Object
@@ -344,7 +344,7 @@ namespace UnityEngine
 
 namespace UnityEngine.SceneManagement
 {
-    /// What a test makes it.
+    /// Set by a test.
     public struct Scene
     {
         public string Path;

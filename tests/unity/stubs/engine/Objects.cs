@@ -1,4 +1,4 @@
-// Test-only stand-ins, never shipped. Objects, their life and death: destroyed ones equal null, as Unity's do; messages
+// Test-only stand-ins, never shipped. Objects, their life and death: destroyed ones equal null, as in Unity; messages
 // come from Player. No scenes, layers, tags or serialisation.
 using System;
 using System.Collections.Generic;
@@ -86,7 +86,7 @@ namespace UnityEngine
         public static void DestroyImmediate(Object obj, bool allowDestroyingAssets) { Player.DestroyNow(obj); }
         public static void DontDestroyOnLoad(Object target) { Player.Keep(target); }
 
-        /// Only what is active in the scene, as Unity's.
+        /// Only active objects in the scene, as in Unity.
         public static T[] FindObjectsOfType<T>() where T : Object
         {
             List<T> found = new List<T>();
@@ -118,8 +118,8 @@ namespace UnityEngine
     }
 
     /// Faithful: components, required components, activity through parents, the quad's mesh. Not: tags, layers, scenes,
-    /// the meshes of other primitives. A component that is not there is null itself; in Unity's editor it may be an object
-    /// that only equals null, so the package asks with == and never with ?? or ?.
+    /// the meshes of other primitives. A missing component is null itself; in Unity's editor it may be an object that
+    /// only equals null, so the package uses == and never ?? or ?.
     public sealed class GameObject : Object
     {
         internal readonly List<Component> parts = new List<Component>();
@@ -182,7 +182,7 @@ namespace UnityEngine
             }
         }
 
-        /// The type, or the first of those it is derived from, of which an object has one at most; null where there is none.
+        /// The type, or its first base class, of which an object may have only one; null if there is none.
         static Type FindSingle(Type type)
         {
             Type found = null;
@@ -436,7 +436,7 @@ namespace UnityEngine
         RGBA32 = 4
     }
 
-    /// Keeps its pixels, for tests to look at.
+    /// Keeps its pixels for tests.
     public class Texture2D : Texture
     {
         public Color32[] Pixels;
@@ -460,8 +460,8 @@ namespace UnityEngine
         public static Texture2D whiteTexture { get { return new Texture2D(); } }
     }
 
-    /// Faithful: sharedMaterials is a copy. Not: bounds, which a test sets; `material` is the shared one, in Unity a copy
-    /// where another renderer has it too.
+    /// Faithful: sharedMaterials is a copy. Not: bounds, which a test sets; `material` is the shared one, in Unity a
+    /// copy if another renderer has it, too.
     public class Renderer : Component
     {
         Material[] materials = { new Material(new Shader()) };
@@ -523,7 +523,7 @@ namespace UnityEngine
         Acceleration = 5
     }
 
-    /// Does not move; keeps the impulses that it is given, none where it is kinematic. Its mass is 1 kg.
+    /// Does not move; records its impulses, unless it is kinematic. Its mass is 1 kg.
     public sealed class Rigidbody : Component
     {
         public Vector3 Impulse;

@@ -75,7 +75,7 @@ namespace UnityEngine
             return target => open((T)target);
         }
 
-        /// False where the method threw; true also where there is none.
+        /// False if the method threw; true also if there is no method.
         internal static bool Send(Object target, string name)
         {
             try

@@ -9,11 +9,11 @@ namespace UnityEngine
 {
     /// Faithful: Awake and OnEnable at once on adding to an active object; Start before the first Update; the order of
     /// DefaultExecutionOrder, then of creation; Destroy at the frame's end; quitting, pausing, leaving a scene, play
-    /// mode with statics kept. Not: physics, rendering, coroutines, what a scene file stores. In edit mode only
+    /// mode with statics kept. Not: physics, rendering, coroutines, data in scene files. In edit mode only
     /// ExecuteAlways and ExecuteInEditMode get messages.
     public static partial class Player
     {
-        /// What an editor would tell its own listeners, in the order of UnityEditor.PlayModeStateChange.
+        /// Events for an editor's own listeners, in the order of UnityEditor.PlayModeStateChange.
         public static Action<int> PlayModeChanged;
         public static Action AssemblyReload;
 
@@ -57,7 +57,7 @@ namespace UnityEngine
             }
         }
 
-        /// Frames until something is true: at once where it is; false after `seconds`.
+        /// Runs frames until a condition is true, none if it already is; false after `seconds`.
         public static bool Until(Func<bool> what, double seconds)
         {
             DateTime end = DateTime.UtcNow.AddSeconds(seconds);
@@ -128,8 +128,8 @@ namespace UnityEngine
             BuryTheDead();
         }
 
-        /// What scripts hear before an assembly reload: the event first, then OnDisable everywhere. The domain itself
-        /// is the test's to unload.
+        /// Messages to scripts before an assembly reload: the event first, then OnDisable everywhere. The test unloads
+        /// the domain itself.
         public static void ReloadAssemblies()
         {
             if (AssemblyReload != null)

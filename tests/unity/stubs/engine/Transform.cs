@@ -4,9 +4,9 @@ using System.Collections.Generic;
 
 namespace UnityEngine
 {
-    /// Faithful: the maths of hierarchies in float, with Unity's rotation and lossyScale where parents scale unevenly
-    /// (the product of the rotations); hasChanged, children that are enumerated as they
-    /// are at each step. Not: sibling order, events, an error for a parent that is a child.
+    /// Faithful: the maths of hierarchies in float, with Unity's rotation and lossyScale if parents scale unevenly
+    /// (the product of the rotations); hasChanged, children enumerated in their state at each step. Not: sibling order,
+    /// events, an error for a parent that is a child.
     public class Transform : Component, IEnumerable
     {
         internal readonly List<Transform> children = new List<Transform>();

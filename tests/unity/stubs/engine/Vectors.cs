@@ -36,7 +36,7 @@ namespace UnityEngine
         public static bool operator !=(Vector2 a, Vector2 b) { return !(a == b); }
         public static implicit operator Vector3(Vector2 v) { return new Vector3(v.x, v.y, 0f); }
         public static implicit operator Vector2(Vector3 v) { return new Vector2(v.x, v.y); }
-        public bool Equals(Vector2 other) { return x == other.x && y == other.y; } // not of what is no number
+        public bool Equals(Vector2 other) { return x == other.x && y == other.y; } // not for NaN
         public override bool Equals(object other) { return other is Vector2 && Equals((Vector2)other); }
         public override int GetHashCode() { return x.GetHashCode() ^ (y.GetHashCode() << 2); }
         public override string ToString() { return Text.Of("F2", x, y); }
@@ -254,7 +254,7 @@ namespace UnityEngine
         public const float Deg2Rad = PI / 180f;
         public const float Rad2Deg = 180f / PI;
         public const float Infinity = float.PositiveInfinity;
-        public const float Epsilon = float.Epsilon; // where numbers below the normal ones are not flushed to 0
+        public const float Epsilon = float.Epsilon; // unless subnormal numbers are flushed to 0
 
         public static float Abs(float f) { return Math.Abs(f); }
         public static int Abs(int f) { return Math.Abs(f); }
