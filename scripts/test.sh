@@ -1,7 +1,7 @@
 # Part of ./run: ./run test, soak, fuzz and mutants.
 
 LABELS='base vibration grating motion contact scene audio loop device gltf tool docs bindings fidelity stability realtime clock threads'
-LABELS+=' windows godot unity abi package python web'
+LABELS+=' windows godot unity abi package python blender web'
 
 run_tests() {
     local all='' label labels=() excluded='' narrow=() targets=() whole=''
@@ -30,6 +30,8 @@ run_tests() {
     ! wanted unity || prepare_unity || echo "run: SKIPPED: tests of the Unity package's C#: see above" >&2
     ! wanted python || (need_packages "${PYTHON_PACKAGES[@]}") ||
         echo "run: SKIPPED: tests of the Python module: see above" >&2
+    ! wanted blender || (need_packages blender) ||
+        echo "run: SKIPPED: tests of the Blender extension: see above" >&2
     ! wanted web || prepare_web "${labels[@]}" || echo "run: SKIPPED: the page in a browser: see above" >&2
     [ -z "$whole" ] || targets=()
     build release "${targets[@]}"
@@ -204,6 +206,7 @@ soak() {
     done
     same_numbers || failed+=(same_numbers)
     test_elsewhere || failed+=('macOS and arm64')
+    (need_packages python3-venv) && tests/blender/run.sh build/release/knurl build/blender 4.2 4.5 5.0 || failed+=(blender)
     test_systems '' "$CURRENT_SYSTEM" "$NEWEST_SYSTEM" || failed+=('the two commands in other systems') # with warnings
     figures --check || failed+=("figures --check")
     [ ${#failed[@]} -eq 0 ] || { echo "run: soak: FAILED: ${failed[*]}" >&2; exit 1; }
