@@ -151,6 +151,7 @@ class KNURL_MT_presets(bpy.types.Menu):
 
 def _draw(layout, owner, mesh):
     layout.use_property_split = True
+    layout.use_property_decorate = False
     layout.active = owner.knurl_on
     layout.menu(KNURL_MT_presets.bl_idname)
     for name in ("knurl_ridges", "knurl_ridges_across", "knurl_depth", "knurl_hardness", "knurl_grip", "knurl_loss",
