@@ -2,6 +2,7 @@
 #include "device/dhd/rights.h"
 
 #include "base/finite.h"
+#include "device/permission.h"
 
 #ifndef __linux__
 
@@ -60,9 +61,7 @@ int knurl_usb_is_denied(unsigned vendor, char *text, size_t size) {
             device.vendor == vendor && device.node[0] && access(device.node, R_OK | W_OK) != 0 && errno == EACCES;
         if (is_denied) {
             (void)snprintf(text, size,
-                           "%04x:%04x is there, but permission to open %s is denied: copy sdk/udev/70-knurl.rules to "
-                           "/etc/udev/rules.d, run 'udevadm control --reload' and 'udevadm trigger', and plug it in "
-                           "again",
+                           "%04x:%04x is there, but permission to open %s is denied: " KNURL_PERMISSION_ADVICE,
                            device.vendor, device.product, device.node);
         }
     }

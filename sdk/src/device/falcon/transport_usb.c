@@ -1,6 +1,7 @@
 /* Finds and opens Falcons with libusb, which is loaded at run time. SPDX-License-Identifier: MIT */
 #include "device/falcon/transport.h"
 #include "device/listings.h"
+#include "device/permission.h"
 
 #ifndef KNURL_HAVE_LIBUSB
 
@@ -55,17 +56,14 @@ static int load_functions(char *why, size_t why_size) {
 #define NO_LIBRARY "libusb-1.0 cannot be loaded: %s; install it (Debian: libusb-1.0-0)"
 #endif
 
-#if defined(_WIN32) || defined(__APPLE__)
-static const char permission[] = "it may not be opened: is it in use by another program, or by this one?";
-#else
-static const char permission[] =
-    "it may not be used by this account; copy sdk/udev/70-knurl.rules to /etc/udev/rules.d, run 'udevadm control "
-    "--reload' and 'udevadm trigger', and plug it in again";
-#endif
+static const char permission[] = "it may not be opened: " KNURL_PERMISSION_ADVICE;
 
 static const char in_use[] =
-    "it is in use: by another program, by this one, or by the kernel's ftdi_sio; close the one "
-    "or unload the other";
+#ifdef __linux__
+    "it is in use: by another program, by this one, or by the kernel's ftdi_sio; close the one or unload the other";
+#else
+    "it is in use: by another program or by this one; close it there";
+#endif
 
 static const char no_driver[] = "its driver is not WinUSB, the one that libusb works with; install that with Zadig";
 

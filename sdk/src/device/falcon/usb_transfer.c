@@ -18,7 +18,7 @@
 #define END_OUT      0x02
 #define REQUEST_TYPE 0x40
 #define CONTROL_MS   1000
-#define CLOSE_MS     1000 /* for pending transfers to end */
+#define CLOSE_MS     15 /* for the last frame to be sent, and for cancelled transfers to end */
 
 static void keep(usb *u, const unsigned char *bytes, int count) {
     const uint32_t at = (u->first + u->held++) % USB_ROOM;
@@ -129,7 +129,7 @@ static int usb_read(void *self, uint8_t packet[KNURL_FALCON_PACKET], size_t *cou
 
 void knurl_usb_close(void *self) {
     usb *u = self;
-    const int64_t deadline = after_ms(CLOSE_MS);
+    int64_t deadline = after_ms(CLOSE_MS);
     u->is_closing = 1;
     while (u->is_out_pending && !u->is_gone && knurl_system_now_ns() < deadline) {
         wait_for_events(u, deadline); /* the last frame sets the force to zero */
@@ -140,6 +140,7 @@ void knurl_usb_close(void *self) {
     if (u->is_out_pending) {
         (void)u->lib->cancel_transfer(u->out);
     }
+    deadline = after_ms(CLOSE_MS);
     while ((u->is_in_pending || u->is_out_pending) && knurl_system_now_ns() < deadline) {
         wait_for_events(u, deadline);
     }

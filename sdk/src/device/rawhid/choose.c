@@ -1,8 +1,9 @@
 /* Chooses a HID interface. SPDX-License-Identifier: MIT */
 #include "device/rawhid/choose.h"
 
-#include "device/listings.h"
 #include "base/number.h"
+#include "device/listings.h"
+#include "device/permission.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -79,9 +80,7 @@ static void explain(const knurl_rawhid_wanted *wanted, const knurl_rawhid_found 
                                             : "");
         break;
     case DENIED:
-        (void)snprintf(text, size,
-                       "%04x:%04x is there, but permission to open %s is denied: copy sdk/udev/70-knurl.rules to "
-                       "/etc/udev/rules.d, run 'udevadm control --reload' and 'udevadm trigger', and plug it in again",
+        (void)snprintf(text, size, "%04x:%04x is there, but permission to open %s is denied: " KNURL_PERMISSION_ADVICE,
                        found->vendor, found->product, found->path);
         break;
     default:

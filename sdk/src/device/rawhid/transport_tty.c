@@ -1,4 +1,5 @@
 /* Serial ports with termios. SPDX-License-Identifier: MIT */
+#include "device/permission.h"
 #include "device/rawhid/serial.h"
 
 #if defined(_WIN32)
@@ -83,8 +84,7 @@ static int tty_open(void *user, const char *path, knurl_serial_wire *wire, char 
     made->descriptor = open(path, O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
     if (made->descriptor < 0 || !lock(made->descriptor) || !set_raw(made->descriptor)) {
         (void)snprintf(why, why_size, "%s%s", strerror(errno),
-                       errno == EACCES   ? "; copy sdk/udev/70-knurl.rules to /etc/udev/rules.d, run 'udevadm control "
-                                           "--reload' and 'udevadm trigger', and plug it in again"
+                       errno == EACCES   ? "; " KNURL_PERMISSION_ADVICE
                        : errno == EBUSY  ? "; end other programs that use it"
                        : errno == ENOTTY ? "; expected a serial port"
                                          : "");

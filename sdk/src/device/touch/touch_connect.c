@@ -4,6 +4,7 @@
 
 #include "base/atomic.h"
 #include "base/system.h"
+#include "device/permission.h"
 
 #include <string.h>
 
@@ -11,11 +12,10 @@
 #define PATIENCE_NS 200000000
 
 static const char udev_help[] =
-#if defined(_WIN32)
-    "";
+#ifdef __linux__
+    "; if only the permission is missing: " KNURL_PERMISSION_ADVICE;
 #else
-    "; if only the permission is missing: copy sdk/udev/70-knurl.rules to /etc/udev/rules.d, run 'udevadm control "
-    "--reload' and 'udevadm trigger', and plug it in again";
+    "";
 #endif
 
 /* ns to wait for the forces of other devices to become zero before the scheduler is paused. */
