@@ -73,6 +73,19 @@ TEST(a_trace_is_exact_if_the_user_says_so) {
     check_refused(&p, 2, "--exact|expected --trace", "--exact without a trace");
 }
 
+TEST(an_exact_trace_is_exact_on_a_device_with_a_long_name) {
+    char uri[2048] = "fake:?";
+    while (strlen(uri) < 2000) {
+        (void)strcat(uri, "tremor=0&");
+    }
+    (void)strcat(uri, "tremor=0");
+    process p = RUN_TOOL("run", write_plate("plate.gltf", TAG), "--fast", "--trace", record("counts.csv", 0.055e-3, 17),
+                         "--device", uri, "--exact");
+    check_done(&p);
+    CHECK_SAME(json_number_of(p.out, "resolution_m"), 0.0L);
+    process_free(&p);
+}
+
 TEST(an_exact_trace_stays_exact) {
     process p = play(record("exact.csv", 0.0, 17), NULL, NULL);
     check_done(&p);
