@@ -85,6 +85,7 @@ def draw_tradeoff(data, folder):
         draw_panel(axes, rows, colours, key, title, about.format(near=near))
     grid[1, 2].axis("off")
     for axes in grid.flat[2:5]:
+        axes.tick_params(labelbottom=True)
         axes.set_xlabel("µs of one core for a second of rendering", color=INK)
     figure.suptitle("Every method, rate and estimator: cost in time, and each error", x=0.05, ha="left", fontsize=15,
                     weight="bold", color=INK)
