@@ -185,6 +185,18 @@ class Games(unittest.TestCase):
             loop.wait(0.1)
         self.assertGreater(len(seen), 0)
 
+    def test_contacts_of_another_hip_belong_to_its_own_thread(self):
+        scene = knurl.Scene(hips=3)
+        scene.add_plane()
+        scene.commit()
+        found = []
+        with knurl.Loop(scene, knurl.Device("fake"), hip=1):
+            knurl.Loop(scene, knurl.Device("fake"), tick_callback=lambda row: found.append(len(scene.contacts(2)))).step(1)
+            self.assertEqual(found, [0])
+            loop = knurl.Loop(scene, knurl.Device("fake"), tick_callback=lambda row: scene.contacts(1))
+            with self.assertRaisesRegex(knurl.KnurlError, "hip 1: expected a call within"):
+                loop.step(1)
+
     def test_devices_are_listed_with_a_reason(self):
         kinds = {listing.uri.split(":")[0]: listing for listing in knurl.devices()}
         self.assertEqual(kinds["fake"].reason, "")

@@ -5,7 +5,8 @@ it, by cffi. SPDX-License-Identifier: MIT"""
 from . import metrics
 from ._library import KnurlError, arrays_of, check, ffi, lib, version
 from .callbacks import Sample
-from .device import Device, Event, Listing, Loop, devices
+from .device import Device, Event, Listing, devices
+from .loop import Loop
 from .methods import add_method
 from .scene import Material, Scene, Surface
 from .signals import Grating, Velocity

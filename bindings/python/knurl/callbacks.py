@@ -1,6 +1,5 @@
 """Python functions that a device or a loop calls. The C callbacks are module-level and never freed, so that no thread
-can
-call a freed one; their `user` is a handle of the object with the Python functions. SPDX-License-Identifier: MIT"""
+can call a freed one; their `user` is a handle of the object with the Python functions. SPDX-License-Identifier: MIT"""
 import threading
 from typing import Any, Callable, Dict, NamedTuple, Optional, Tuple
 
@@ -16,8 +15,7 @@ _thread = threading.local()
 
 class Sample(NamedTuple):
     """A device's reading: position in m, device axes; buttons, bit 0 is the first; orientation of the stylus, a
-    quaternion
-    x, y, z, w, zeros if it is not measured."""
+    quaternion x, y, z, w, zeros if it is not measured."""
 
     position: Tuple[float, float, float]
     buttons: int = 0
@@ -27,8 +25,8 @@ class Sample(NamedTuple):
 class Calls:
     """The functions of one loop, and the first exception that one of them raised."""
 
-    def __init__(self, force: Optional[Callable[..., Any]], tick: Optional[Callable[..., Any]], record: Any) -> None:
-        self.force, self.tick, self.record = force, tick, record
+    def __init__(self, force: Optional[Callable[..., Any]], tick: Optional[Callable[..., Any]], record: Any, hip: Any) -> None:
+        self.force, self.tick, self.record, self.hip = force, tick, record, hip
         self.error: Optional[BaseException] = None
         self.loop: Any = None # the C pointer, set before a thread can call
 
@@ -44,16 +42,16 @@ def let_go(user: Any) -> None:
     _kept.pop(user, None)
 
 
-def in_callback() -> bool:
-    """True within a loop's callback on this thread."""
-    return getattr(_thread, "inside", False)
+def in_callback() -> Optional[Calls]:
+    """The loop whose callback this thread is in, or None."""
+    return getattr(_thread, "inside", None)
 
 
 def _call(calls: Calls, function: Callable[..., Any], *arguments: Any) -> Any:
     """None after an exception, which ends the loop and is raised by its next wait(), step(), stop() or close()."""
     if calls.error is not None:
         return None
-    was_inside, _thread.inside = in_callback(), True # a callback may step another loop
+    was_inside, _thread.inside = in_callback(), calls # a callback may step another loop
     try:
         return function(*arguments)
     except BaseException as error: # pylint: disable=broad-except

@@ -310,12 +310,12 @@ class Scene(Owner):
         a loop
         ticks the HIP, only within its tick_callback."""
         found = np.zeros(lib.KNURL_CONTACTS_MAX, _CONTACTS)
-        own = self._hip(hip)
-        loop = own.loop and own.loop()
-        if loop and not loop.closed and not in_callback():
-            refuse(f"hip {hip}: expected a call within the loop's tick_callback, because its thread ticks the HIP")
         pointer = ffi.from_buffer("knurl_hip_contact[]", found)
-        if in_callback(): # on the thread that ticks the HIP
+        own, inside = self._hip(hip), in_callback()
+        if inside and inside.hip is own: # on the thread that ticks the HIP
             return found[:lib.knurl_scene_get_contacts(self.handle, hip, pointer, len(found))]
+        loop = own.loop and own.loop()
+        if loop and not loop.closed:
+            refuse(f"hip {hip}: expected a call within the loop's tick_callback, because its thread ticks the HIP")
         with own:
             return found[:lib.knurl_scene_get_contacts(self.handle, hip, pointer, len(found))]
