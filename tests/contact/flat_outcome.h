@@ -64,6 +64,13 @@ static inline void check_outline(shape *s, uint32_t edges, double area, double l
     CHECK_CLOSE(found_length, length, 1e-7 + 1e-6 * length);
     assert_true(knurl_plane_covers(o.plane, o.plane->inside));
     assert_true(flat_to_outline(o.plane, o.plane->inside) > 1e-4 * length);
+    for (uint64_t seed = 1, i = 0; o.plane->outline && i < 200; i++) {
+        double p[3] = {random_between(&seed, -0.1, 0.1), random_between(&seed, -0.1, 0.1), 0.02}, closest[3];
+        const double distance = knurl_plane_covers(o.plane, p) ? 0.0 : flat_to_outline(o.plane, p);
+        knurl_plane_closest(o.plane, p, closest);
+        CHECK_CLOSE(hypot(p[0] - closest[0], p[1] - closest[1]), distance, 1e-12);
+        CHECK_CLOSE(flat_to_outline(o.plane, closest) * (distance > 0.0), 0.0, 1e-12);
+    }
     forget(&o);
     shape_free(s);
 }

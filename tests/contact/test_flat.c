@@ -269,6 +269,15 @@ TEST(solids_and_curved_sheets_stay_meshes) {
     CHECK_STAYS(&soup, "mesh: not flat");
 }
 
+TEST(wedge_narrower_than_the_tolerance_stays_a_mesh) {
+    shape s = flat_fan(3, 0.02, 0.02);
+    s.index_count = 3;
+    shape_set(&s, 3, 0.0, 0.0, 0.0);
+    shape_set(&s, 0, 0.05, 0.0, 0.0);
+    shape_set(&s, 1, 0.05, 2e-7, 0.0);
+    CHECK_STAYS(&s, "mesh: its outline is smaller than a plane's tolerance");
+}
+
 TEST(mesh_without_any_area_stays_one) {
     shape s = DRAWING("#");
     memset(s.positions, 0, s.vertex_count * 3 * sizeof(float));

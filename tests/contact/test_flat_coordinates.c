@@ -43,6 +43,7 @@ TEST(tangents_that_turn_or_stand_up_keep_a_mesh) {
                  {{-1.0F, 0.0F, 0.0F}, "mesh: its tangents do not all point in one direction"},
                  {{0.0F, 0.0F, 1.0F}, "mesh: its x direction is perpendicular to it"},
                  {{0.0F, 0.0F, 0.0F}, "mesh: its x direction is perpendicular to it"},
+                 {{0.01F, 0.0F, 0.0F}, "plane: a flat mesh, a rectangle"},
                  {{0.5F, 1e-5F, 0.3F}, "plane: a flat mesh, a rectangle"}};
     for (size_t i = 0; i < COUNT_OF(cases); i++) {
         for (uint32_t v = 0; v < 15; v++) {

@@ -99,6 +99,24 @@ TEST(triangles_turned_at_random_hang_together) {
     probe_free(&p);
 }
 
+/* The larger one of two that face opposite ways is the front, in any order. */
+TEST(the_larger_area_is_the_front) {
+    for (uint32_t small = 0; small < 2; small++) {
+        static const double places[4][2] = {{0.0, -0.01}, {0.0, 0.01}, {-0.03, 0.0}, {0.01, 0.0}};
+        shape s = shape_new(4, 6, 0);
+        for (uint32_t v = 0; v < 4; v++) {
+            shape_set(&s, v, places[v][0], places[v][1], 0.0);
+        }
+        memcpy(&s.indices[small ? 0 : 3], (const uint32_t[3]){0, 1, 2}, 3 * sizeof(uint32_t)); /* faces up */
+        memcpy(&s.indices[small ? 3 : 0], (const uint32_t[3]){0, 1, 3}, 3 * sizeof(uint32_t)); /* faces down */
+        probe p = probe_shape(&s);
+        assert_int_equal(p.mesh->turned, 1);
+        (void)probe_to(&p, 0.002, 0.0, 0.001);
+        assert_true(probe_to(&p, 0.002, 0.0, -0.001));
+        probe_free(&p);
+    }
+}
+
 /* A double-sided surface has no inside: a HIP first seen behind it is behind it. */
 TEST(first_tick_behind_a_double_sided_sheet_is_behind) {
     shape sheet = shape_sheet(8, 8, half, NULL);

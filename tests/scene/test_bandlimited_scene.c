@@ -303,13 +303,15 @@ static void check_flicker(surface_parts *parts, const double along[3], const dou
 }
 
 TEST(at_rest_on_an_edge_a_flicker_on_any_axis_does_not_toggle_it) {
-    static const double x[3] = {1.0, 0.0, 0.0};
-    static const double up[3] = {0.0, 0.0, 1.0};
+    static const double x[3] = {1.0, 0.0, 0.0}, y[3] = {0.0, 1.0, 0.0}, up[3] = {0.0, 0.0, 1.0};
     SCOPED_SHAPE curved = curved_sheet();
     surface_parts plane = grating_on(NULL, KNURL_METHOD_BANDLIMITED);
     surface_parts mesh = grating_on(&curved, KNURL_METHOD_BANDLIMITED);
     check_flicker(&plane, x, up, 1.0, 1);
     check_flicker(&plane, x, up, 1.0, 7);
+    set_grating(&plane, KNURL_METHOD_BANDLIMITED, 0.0, FS, A);
+    check_flicker(&plane, y, up, 1.0, 2);
+    check_flicker(&plane, y, up, 1.0, 7);
     check_flicker(&mesh, x, up, 1.0, 1);
     check_flicker(&mesh, x, up, 1.0, 7);
 }

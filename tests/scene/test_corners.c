@@ -272,15 +272,18 @@ TEST(a_mesh_that_touches_itself_is_reported) {
 
 /* --- steps --- */
 
-/* A floor whose next tile is `rise` higher, without a wall in between: a dragged HIP steps up. */
+/* A floor whose next tile is `rise` higher, without a wall in between: a dragged HIP steps up, whether tiles have one
+ * side or two. */
 TEST(a_step_up_between_two_surfaces_is_climbed) {
     const double rises[4] = {5e-6, 2e-5, 1e-4, 5e-4};
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < 8; i++) {
+        const double rise = rises[i / 2];
         surface_parts parts[2] = {surface_plane(), surface_plane()};
         for (int k = 0; k < 2; k++) {
             parts[k].plane.half_extents[0] = parts[k].plane.half_extents[1] = 0.01;
             parts[k].desc.position[0] = k == 0 ? -0.01 : 0.01;
-            parts[k].desc.position[2] = k == 0 ? 0.0 : rises[i];
+            parts[k].desc.position[2] = k == 0 ? 0.0 : rise;
+            parts[k].desc.double_sided = (uint32_t)i % 2;
         }
         SCOPED_SCENE *scene = scene_with(parts, 2, 0);
         (void)tick_at(scene, -0.004, 0.0, 0.001);
@@ -288,9 +291,9 @@ TEST(a_step_up_between_two_surfaces_is_climbed) {
             const double x = -0.004 + STEP * k + 3e-6;
             const knurl_tick_output out = tick_at(scene, x, 0.0, -DEPTH);
             if (out.contacts != 1) {
-                fail_msg("a step of %g m: lost at %g", rises[i], x);
+                fail_msg("a step of %g m: lost at %g", rise, x);
             }
-            CHECK_CLOSE(out.depth, DEPTH + (x > 0.0 ? rises[i] : 0.0), 1e-9L);
+            CHECK_CLOSE(out.depth, DEPTH + (x > 0.0 ? rise : 0.0), 1e-9L);
         }
     }
 }

@@ -134,6 +134,9 @@ TEST(across_an_axis_nothing_is_stretched_whatever_the_uvs) {
     parts.desc.axis[1] = 1.0;
     (void)check_of(&parts, &info);
     CHECK_VECTOR(info.stretch_y, 1.0, 1.0, 1.0, 0.0);
+    parts.mesh.uvs = NULL;
+    (void)check_of(&parts, &info);
+    CHECK_VECTOR(info.stretch, 1.0, 1.0, 1.0, 0.0);
 }
 
 TEST(stretch_is_told_along_y_too_and_warned_of_beyond_an_octave) {

@@ -61,10 +61,9 @@ static int wedge_take(wedge *w, const double place[2], double tolerance) {
     }
     w->reach = reach;
     if (reach > tolerance) {
-        const double sine = tolerance / reach;
-        const double cosine = sqrt(1.0 - sine * sine);
-        const double low[2] = {cosine * d[0] + sine * d[1], cosine * d[1] - sine * d[0]};
-        const double high[2] = {cosine * d[0] - sine * d[1], cosine * d[1] + sine * d[0]};
+        const double sine = tolerance / reach; /* used as a tangent: a little narrower than the tolerance allows */
+        const double low[2] = {d[0] + sine * d[1], d[1] - sine * d[0]};
+        const double high[2] = {d[0] - sine * d[1], d[1] + sine * d[0]};
         if (w->open || cross2(w->low, low) > 0.0) {
             memcpy(w->low, low, sizeof low);
         }

@@ -148,10 +148,9 @@ void knurl_plane_rest(const knurl_cast_hit *hit, const double point[3], knurl_co
     contact->proxy[2] = 0.0;
 }
 
-/* Side that the HIP comes from, or 0: it crossed the plane since the last tick, or is within reach. *unsure: set if it
- * crossed within the seam beside the outline, where another surface may continue. */
-static int begin_side(const knurl_plane *plane, const knurl_contact_query *query, double reach, int32_t *inside,
-                      int32_t *unsure) {
+/* Side that the HIP comes from, at any distance, or 0. *inside: set if it crossed the plane since the last tick.
+ * *unsure: set if it crossed within the seam beside the outline, where another surface may continue. */
+static int begin_side(const knurl_plane *plane, const knurl_contact_query *query, int32_t *inside, int32_t *unsure) {
     const double z = query->hip[2];
     const int behind_allowed = query->double_sided;
     if (query->has_previous && (query->previous[2] >= 0.0) != (z >= 0.0)) {
@@ -166,19 +165,14 @@ static int begin_side(const knurl_plane *plane, const knurl_contact_query *query
         }
         *unsure = (side > 0 || behind_allowed) && is_within_seam(plane, crossing);
     }
-    *inside = 0;
-    if (z >= 0.0 && z <= reach) {
+    if (z >= 0.0) {
         return 1;
     }
-    if (z < 0.0 && -z <= reach && behind_allowed) {
+    if (behind_allowed) { /* a double-sided plane has no inside to start in */
         return -1;
     }
-    /* a double-sided plane has no inside to start in */
-    if (!query->has_previous && !behind_allowed && z < 0.0 && z >= -KNURL_CAPTURE_DEPTH) {
-        *inside = 1;
-        return 1;
-    }
-    return 0;
+    *inside = !query->has_previous && z >= -KNURL_CAPTURE_DEPTH;
+    return *inside;
 }
 
 int knurl_plane_contact(const knurl_plane *plane, const knurl_contact_query *query, knurl_contact_state *state,
@@ -187,7 +181,7 @@ int knurl_plane_contact(const knurl_plane *plane, const knurl_contact_query *que
     const double reach = query->reach > KNURL_ON_SURFACE ? query->reach : KNURL_ON_SURFACE;
     contact->unsure = 0;
     if (!state->inside) { /* a HIP in front may cross the plane at any tick */
-        state->side = begin_side(plane, query, reach, &state->inside, &contact->unsure);
+        state->side = begin_side(plane, query, &state->inside, &contact->unsure);
     }
     const double z = hip[2] * state->side;
     if (state->side == 0 || z > reach || !covers(plane, hip)) {

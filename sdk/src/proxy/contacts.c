@@ -20,7 +20,6 @@ int knurl_contacts_add(knurl_contacts *c, knurl_candidate *candidate, const knur
     a->pose = pose;
     a->candidate = candidate;
     a->contact = touched->contact;
-    a->is_sharp = 0;
     a->begins = !candidate->in_contact;
     if (a->begins) {
         memset(&candidate->grating, 0, sizeof candidate->grating);
