@@ -32,26 +32,33 @@ TEST(a_device_is_quiet_only_after_a_zero_that_it_accepted) {
     }
 }
 
-TEST(silence_is_reported_again_after_a_reopening) {
+/* The result of the last read. */
+static knurl_result read_for(knurl_device *device, knurl_result gives, int ms) {
     knurl_device_sample sample;
-    SCOPED_DEVICE *device = home_open(&h, 0);
-    for (int round = 0; round < 2; round++) {
-        h.read_gives = KNURL_OK;
-        assert_int_equal(knurl_device_read(device, &sample), KNURL_OK);
-        h.read_gives = KNURL_ERROR_DEVICE_NOT_READY;
-        for (int k = 0; k < 20; k++) {
-            (void)knurl_device_read(device, &sample);
+    knurl_result result = KNURL_OK;
+    knurl_store_release(&h.read_gives, gives);
+    for (int k = 0; k < ms; k++) {
+        sleep_ns(1000000);
+        result = knurl_device_read(device, &sample);
+    }
+    return result;
+}
+
+TEST(silence_is_reported_again_after_a_reopening) {
+    for (uint32_t blocking = 0; blocking < 2; blocking++) {
+        SCOPED_DEVICE *device = home_open(&h, blocking);
+        for (int round = 0; round < 2; round++) {
+            assert_int_equal(read_for(device, KNURL_OK, 5), KNURL_OK);
+            assert_int_equal(read_for(device, KNURL_ERROR_DEVICE_NOT_READY, 20), KNURL_ERROR_DEVICE_NOT_READY);
+            assert_int_equal(next_code(device, 0), KNURL_FAULT_SILENT);
+            assert_int_equal(read_for(device, KNURL_ERROR_DEVICE_LOST, 5), KNURL_ERROR_DEVICE_LOST);
+            assert_int_equal(next_code(device, 0), KNURL_FAULT_LOST);
+            knurl_store_release(&h.read_gives, KNURL_ERROR_DEVICE_NOT_READY);
+            assert_int_equal(knurl_device_reopen(device), KNURL_OK);
+            assert_int_equal(next_code(device, 0), KNURL_FAULT_RECONNECTED);
+            /* as if it had never had a position: 10 ms of patience */
+            assert_int_equal(read_for(device, KNURL_ERROR_DEVICE_NOT_READY, 20), KNURL_ERROR_DEVICE_NOT_READY);
+            assert_int_equal(next_code(device, 0), KNURL_FAULT_SILENT);
         }
-        assert_int_equal(next_code(device, 0), KNURL_FAULT_SILENT);
-        h.read_gives = KNURL_ERROR_DEVICE_LOST;
-        assert_int_equal(knurl_device_read(device, &sample), KNURL_ERROR_DEVICE_LOST);
-        assert_int_equal(next_code(device, 0), KNURL_FAULT_LOST);
-        assert_int_equal(knurl_device_reopen(device), KNURL_OK);
-        assert_int_equal(next_code(device, 0), KNURL_FAULT_RECONNECTED);
-        h.read_gives = KNURL_ERROR_DEVICE_NOT_READY;
-        for (int k = 0; k < 20; k++) { /* as without any position before: waits 10 ms */
-            assert_int_equal(knurl_device_read(device, &sample), KNURL_ERROR_DEVICE_NOT_READY);
-        }
-        assert_int_equal(next_code(device, 0), KNURL_FAULT_SILENT);
     }
 }
