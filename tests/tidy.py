@@ -44,7 +44,7 @@ def included(entry):
 
 
 def key(file, version, entry):
-    """Of a file's compilation, or None where it has none, or the compiler does not say what it reads."""
+    """The key of a file's compilation; None without one, or if the compiler does not list its includes."""
     if not entry:
         return None
     settings = [folder / ".clang-tidy" for folder in pathlib.Path(file).resolve().parents]
@@ -57,7 +57,7 @@ def key(file, version, entry):
 
 
 def check(file, version, entry):
-    """What was found in a file: nothing, or clang-tidy's words."""
+    """clang-tidy's findings in a file, "" if there are none."""
     mark = CACHE / (key(file, version, entry) or "none")
     if mark.exists():
         return ""

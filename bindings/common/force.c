@@ -31,7 +31,7 @@ knurl_result knurl_session_vibrate(knurl_session *session, int32_t method, doubl
     return result ? result : knurl_loop_vibrate(session->loop, method, frequency_hz, amplitude, direction, seconds);
 }
 
-/* Ends a clutch: moves the workspace so that the HIP is where the clutch began, and applies the latest scale. */
+/* Ends a clutch: moves the workspace so that the HIP is where the clutch began, and applies the new scale. */
 static knurl_result end_clutch(knurl_session *session) {
     knurl_workspace *w = &session->desc.workspace;
     knurl_workspace to = *w;

@@ -27,7 +27,7 @@ static knurl_result hold_still(knurl_device *device, int is_fake) {
     return is_fake ? knurl_fake_set_stroke(device, &stroke) : KNURL_OK;
 }
 
-/* Rows from the first one on that stand out from what is beside them. */
+/* Number of rows, from the first one on, that stand out from the noise. */
 static uint32_t count_clear(const sweep *s) {
     uint32_t count = 0;
     while (count < s->row_count && s->rows[count].gain > 5.0 * s->rows[count].noise) {

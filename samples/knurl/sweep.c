@@ -14,7 +14,7 @@
 #define SETTLE_S 0.5 /* s before each row */
 #define FADE_S   0.1 /* s: in and out */
 #define SHORT_S  2.0 /* s of a row */
-#define LONG_S   8.0 /* s above FINE_HZ, where the grip moves by micrometres */
+#define LONG_S   8.0 /* s, above FINE_HZ: the grip only moves by micrometres */
 #define FINE_HZ  160.0
 #define SLOW_HZ  2.0  /* of the slow motion */
 #define SLOW     0.2  /* its share of the force */
@@ -108,9 +108,9 @@ static double line_of(const sweeping *s, const part *p, uint64_t cycles) {
     return 2.0 * hypot(sum[0], sum[1]) / (double)p->window;
 }
 
-/* Positions are read once a tick, so that the images of the held force fold onto the line. For a mass, which a grip is
- * at frequencies where that counts, z-transform and sinc give what the grip moves over what is read: sin(a)^3 / (a^3
- * cos a) at a = pi f / f_h. */
+/* Positions are read once a tick, so that the images of the held force fold onto the line. At frequencies that matter
+ * here a grip is a mass: z-transform and sinc give its motion over the motion read:
+ * sin(a)^3 / (a^3 cos a) at a = pi f / f_h. */
 static double unfold(double hz, double rate) {
     const double a = PI * hz / rate;
     const double sinc = sin(a) / a;

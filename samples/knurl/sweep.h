@@ -16,12 +16,12 @@
 typedef struct sweep_row {
     double hz;
     double gain;  /**< m of motion per N of the commanded sine, the hold over a tick included */
-    double noise; /**< m/N: what is beside the line, per bin */
+    double noise; /**< m/N: beside the line, per bin */
 } sweep_row;
 
 typedef struct sweep {
     double rate;    /**< Hz */
-    double newtons; /**< peak of the force: the least of 1 N and what the device can hold */
+    double newtons; /**< peak of the force: 1 N, or the device's continuous force if that is less */
     double seconds; /**< that it took */
     uint64_t overruns;
     sweep_row rows[SWEEP_ROWS];

@@ -50,7 +50,7 @@ static const unit lengths[] = {{"mm", 1.0, 1e3},   {"um", 1.0, 1e6}, {"cm", 1.0,
                                {"in", 254.0, 1e4}, {"m", 1.0, 1.0},  {NULL, 0.0, 1.0}};
 static const unit angles[] = {{"deg", 3.14159265358979323846, 180.0}, {"rad", 1.0, 1.0}, {NULL, 0.0, 1.0}};
 
-/* A number with its unit; what follows it is *end. 0 unless there is one. */
+/* Reads a number with its unit, and sets *end behind it. Returns 0 if there is none. */
 static int read_quantity(const char *text, const unit *units, double *value, const char **end) {
     char *after = NULL;
     *value = strtod(text, &after);
@@ -117,7 +117,7 @@ static int read_axis(keys *k) {
     return TOOL_OK;
 }
 
-/* A word of a few; the loader checks the others, and names what it expects. */
+/* A word of a given set. The loader checks the words of other keys, and names the expected ones. */
 static int read_word(keys *k, const char *option, const char *key, const char *text) {
     if (!text[0] || strlen(text) > 32 || strpbrk(text, "\"\\")) {
         return tool_error(TOOL_USAGE, "tag: %s: expected a word, found '%s'", option, text);

@@ -1,4 +1,4 @@
-/* Study `even`: how even the gains of a device's model make the ridges, by what is felt of them as they are played.
+/* Study `even`: how evenly ridges are felt with the gains of a device's model, as they are played.
  * SPDX-License-Identifier: MIT */
 #include "even.h"
 

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Checks binary compatibility: compares functions, constants and the layout of structs with the record of a release.
-Structs that begin with struct_size may grow at their end, others may use their reserved fields; what is new is
-free until a release records it.
+Structs that begin with struct_size may grow at their end, others may use their reserved fields; additions are free
+until a release records them.
 usage: abi.py SOURCE RECORD LIBRARY...           LIBRARY: static ones, or shared ones
        abi.py --write SOURCE RECORD LIBRARY...   makes the record of a release
 SPDX-License-Identifier: MIT"""

@@ -144,7 +144,7 @@ class Svg:
 
 
 def ports(names, middle, width, other):
-    """Where on a box's edge its arrows stand, x: in the order of what is at their other ends."""
+    """The x of arrows on a box's edge, in the order of their other ends."""
     names = sorted(names, key=lambda name: (other(name), name))
     gap = min(66.0, width / max(1, len(names)))
     return {name: middle + gap * (i - (len(names) - 1) / 2) for i, name in enumerate(names)}
@@ -203,7 +203,7 @@ def draw_module_arrows(svg, modules):
 
 
 def draw(code):
-    """The picture's text, and what it has no place for."""
+    """The picture's text, and the units that it has no place for."""
     missing = [f"picture.py: {unit} has no box" for module in ("scene", "contact") for unit in units_of(code, module)
                if not any(unit in box[5] for box in BOXES.values())]
     missing += [f"picture.py: there is no {unit}" for box in BOXES.values() for unit in box[5] if unit not in code.uses]

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The check sees what it is for: a tree is made with one thing wrong. SPDX-License-Identifier: MIT"""
+"""The check finds each fault in a tree with one fault. SPDX-License-Identifier: MIT"""
 import os
 import stat
 import tempfile
@@ -29,7 +29,7 @@ class Tree(unittest.TestCase):
         return units.Code(self.root)
 
     def fake_nm(self, lines):
-        """A program that says what nm -A -P would."""
+        """A program that prints the output of nm -A -P."""
         path = self.write("nm", "#!/bin/sh\ncat <<'END'\n" + "\n".join(lines) + "\nEND\n")
         os.chmod(path, os.stat(path).st_mode | stat.S_IXUSR)
         return path
@@ -84,7 +84,7 @@ class Tree(unittest.TestCase):
         self.assertEqual(code.circles(), [["scene/a", "scene/b"]])
 
     def header_circle(self, body):
-        """The circles where b.c uses a.h, of that body, and defines b()."""
+        """The cycles if b.c includes a.h, with that body, and defines b()."""
         self.write("sdk/src/scene/a.h", body)
         self.write("sdk/src/scene/b.c", '#include "scene/a.h"\n')
         code = self.code()

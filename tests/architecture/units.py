@@ -27,7 +27,7 @@ def unit_of(path):
 
 
 def source_of(object_path, build):
-    """The source of one of CMake's objects, from the repository; None for what has none there."""
+    """The source of one of CMake's objects, from the repository; None if it has none there."""
     match = OBJECT.match(os.path.relpath(object_path, build))
     return os.path.normpath(os.path.join(match[1], match[2].replace("__/", "../"))) if match else None
 
@@ -94,7 +94,7 @@ class Code:
 
     @staticmethod
     def _roots(path):
-        """Folders above a file: one of them is what its includes start from."""
+        """Folders above a file: its includes start from one of them."""
         parent = os.path.dirname(path)
         while parent:
             parent = os.path.dirname(parent)

@@ -92,7 +92,7 @@ def options_without_help():
 
 
 def packages_without_names():
-    """What ./run demo and ./run test install has a row with its names on systems without apt-get."""
+    """Packages that ./run demo or ./run test install, without a row of names for systems without apt-get."""
     table = (ROOT / "docs/building.md").read_text(encoding="utf-8")
     setup = (ROOT / "scripts/setup.sh").read_text(encoding="utf-8")
     for names in re.findall(r"^(?:BUILD|DEMO)_PACKAGES=\(([^)]*)\)", setup, re.M):

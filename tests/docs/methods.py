@@ -124,7 +124,7 @@ LISTS = {
 
 
 def sentences():
-    """{name in capitals: what grating.h says of the method}."""
+    """{name in capitals: its description in grating.h}."""
     comment = re.search(r"/\*\* The spatial methods\.(.*?)\*/", read("sdk/include/knurl/grating.h"), re.DOTALL)[1]
     found = re.findall(r"- (\w+)[^:]*: (.*?)(?= - |$)", " ".join(re.sub(r"\n \*", "", comment).split()))
     return {name: text[0].upper() + text[1:] for name, text in found}
@@ -175,7 +175,7 @@ def write(known, default):
 
 
 def check(path, known, default):
-    """None, or what is wrong with a file's list."""
+    """The error of a file's list, or None."""
     try:
         found, expected = LISTS[path](read(path), known, default)
     except (TypeError, KeyError, AttributeError, IndexError):

@@ -1,4 +1,4 @@
-// Tags written into files: what is loaded afterwards, and that every other byte stays.
+// Tags written into files: they load, and every other byte stays.
 // SPDX-License-Identifier: MIT
 #include "gltf/builder.hpp"
 

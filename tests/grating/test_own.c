@@ -1,4 +1,4 @@
-/* Own methods: what the function gets, what it may return, and what is refused. SPDX-License-Identifier: MIT */
+/* Own methods: arguments and results of the function, and errors. SPDX-License-Identifier: MIT */
 #include "support/own.h"
 
 #include <knurl/grating.h>
@@ -24,7 +24,7 @@ static double play(scan *s, double x, double y, double vx, double vy) {
     return s->out.height;
 }
 
-/* --- what it gets --- */
+/* --- arguments --- */
 
 static knurl_method_input seen;
 static double looked = -0.5;
@@ -89,7 +89,7 @@ TEST(a_copy_of_s2_plays_its_events_from_its_own_memory) {
     assert_true(knurl_method_get_faults(copy) == 0);
 }
 
-/* --- what it may return --- */
+/* --- results --- */
 
 static double say(const knurl_method_input *in, double *memory, void *user) KNURL_NONBLOCKING {
     (void)in, (void)memory;

@@ -5,8 +5,8 @@ usage: mutants.py [ROOM] [COUNT] [--seed SEED] [--again] [--jobs JOBS] [--list]
 
 All changes of the sample are compiled at once, each beside the original code; KNURL_MUTANT chooses one at run
 time. For each, the programs that reach it run, those of its room first, until one fails, crashes or takes much longer
-than without it. The sample is the same each time: a change elsewhere in the sources does not alter what is drawn from
-the rest. --again runs those that survived the last time, after tests were added; --list only prints the sample.
+than without it. The sample is the same each time: a change elsewhere in the sources does not alter it. --again runs
+those that survived the last time, after tests were added; --list only prints the sample.
 
 Writes build/mutants/mutants.json and prints a table. equivalent.txt names changes that no test can distinguish from
 the original, with the reason. SPDX-License-Identifier: MIT

@@ -1,4 +1,4 @@
-"""Finds what can be changed in C and C++ sources, as libclang reads them. SPDX-License-Identifier: MIT"""
+"""Finds possible changes of C and C++ sources, with libclang. SPDX-License-Identifier: MIT"""
 
 import pathlib
 import re
@@ -55,7 +55,7 @@ class Change:
 
 
 class Finder:
-    """Collects the changes of one file after the other; what headers hold is found once."""
+    """Collects the changes of one file after the other, those of a header once."""
 
     def __init__(self, root, folders):
         self.root, self.folders, self.changes, self.texts = root, folders, {}, {}

@@ -32,7 +32,7 @@ def check(what, good):
 
 
 def build(name, targets, *options):
-    """Configures and builds; returns where."""
+    """Configures and builds; returns the folder."""
     folder = f"{BUILD}-{name}"
     run("cmake", "-G", "Ninja", "-S", SOURCE, "-B", folder, "-DCMAKE_BUILD_TYPE=Release", f"-DCMAKE_C_COMPILER={CC}",
         f"-DCMAKE_C_FLAGS_RELEASE={C_FLAGS}", f"-DCMAKE_CXX_FLAGS_RELEASE={CXX_FLAGS}", "-DBUILD_TESTING=OFF",
@@ -43,7 +43,7 @@ def build(name, targets, *options):
 
 
 def install(name, folder, *components):
-    """Installs what was built in a folder, and moves it; returns where to."""
+    """Installs from a build folder, then moves the installation; returns its folder."""
     first, prefix = (os.path.join(FOLDER, name + part) for part in (".first", ""))
     for path in (first, prefix):
         shutil.rmtree(path, ignore_errors=True)
@@ -89,7 +89,7 @@ def check_tree(prefix, programs, version, *options):
 
 
 def check_exports(prefix):
-    """Only what the headers declare can be seen from outside."""
+    """Only symbols that the headers declare are exported."""
     folder = os.path.join(prefix, "lib")
     for library in ("libknurl.so", "libknurl_gltf.so"):
         path = os.path.join(folder, library)
@@ -101,7 +101,7 @@ def check_exports(prefix):
 
 
 def check_shown(prefix):
-    """The pages' CMake builds a game against what was installed, and configures with the sources in a subfolder."""
+    """The pages' CMake builds a game against the installation, and configures with the sources in a subfolder."""
     shown = run(sys.executable, "-B", os.path.join(SOURCE, "tests/docs/snippets.py"), "write", "cmake", FOLDER).split()
     seen = set()
     for path in shown:

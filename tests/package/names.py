@@ -22,7 +22,7 @@ def need(folder, *packages):
 
 
 def folder_with(name, programs):
-    """A folder with awk and those programs alone, which know what is installed."""
+    """A folder with only awk and those programs, which list installed packages."""
     folder = os.path.join(FOLDER, name)
     shutil.rmtree(folder, ignore_errors=True)
     os.makedirs(folder)

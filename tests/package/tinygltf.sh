@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The loader's tests with other versions of tinygltf: with the headers of the systems in systems.sh, and with each as
 # published, without nlohmann-json's folder.
-# usage: tinygltf.sh SYSTEMS BUILD     SYSTEMS: systems.sh's folder; BUILD: where to build
+# usage: tinygltf.sh SYSTEMS BUILD     SYSTEMS: systems.sh's folder; BUILD: build folder
 set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
 [ $# -eq 2 ] || { echo "usage: tinygltf.sh SYSTEMS BUILD" >&2; exit 2; }

@@ -56,7 +56,7 @@ def unpack_archive():
 
 
 def check_wheel(wheel):
-    """Its tag is that of the C library that it needs, and it has the licences of what is linked in."""
+    """Its tag names the C library that it needs, and it has the licences of all linked libraries."""
     name, names = os.path.basename(wheel), zipfile.ZipFile(wheel).namelist()
     licences = {os.path.basename(path) for path in names if "/licences/" in path}
     if not re.search(r"-py3-none-manylinux_2_\d+_\w+\.whl$", name) or licences != {"LICENSE", "THIRD_PARTY.md"}:
@@ -76,7 +76,7 @@ def edit_in_place(source, environment):
 
 
 def run_shown(python):
-    """Runs what the pages show, with the simulated device."""
+    """Runs the pages' examples, with the simulated device."""
     shutil.copy(os.path.join(SOURCE, "assets/plate_1d.glb"), FOLDER)
     for path in run(sys.executable, "-B", os.path.join(SOURCE, "tests/docs/snippets.py"), "write", "python", FOLDER).split():
         with open(path, encoding="utf-8") as file:

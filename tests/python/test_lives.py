@@ -37,7 +37,7 @@ def ready():
 
 class Lives(unittest.TestCase):
     def probe(self, code):
-        """Runs a program that is to end by itself; returns what it printed."""
+        """Runs a program that ends by itself; returns its output."""
         for run in range(RUNS):
             try:
                 done = subprocess.run([sys.executable, "-B", "-c", SCENE + code], capture_output=True, text=True, check=False,

@@ -1,4 +1,4 @@
-"""Devices, forces and what else a game does to a loop. SPDX-License-Identifier: MIT"""
+"""Own devices, forces and other calls of a loop. SPDX-License-Identifier: MIT"""
 import sys
 import unittest
 

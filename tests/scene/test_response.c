@@ -19,8 +19,8 @@ static knurl_result gains_of(const char *file, size_t size, knurl_gain gains[KNU
     return result;
 }
 
-/* A response over which a fingertip feels every frequency equally: its threshold. What is left are the harmonics of the
- * square wave, as far as the file reaches: 1/n each. */
+/* A response over which a fingertip feels every frequency equally: its threshold. Only the square wave's harmonics up
+ * to the file's end remain: 1/n each. */
 TEST(gains_level_the_power_of_all_harmonics_that_the_file_reaches) {
     static char file[32768] = HEAD;
     knurl_gain gains[KNURL_GAINS];
@@ -43,7 +43,7 @@ TEST(gains_level_the_power_of_all_harmonics_that_the_file_reaches) {
     }
 }
 
-/* A resonance is taken down as far as it stands out; what is weaker above 310 Hz stays as it is. */
+/* A resonance is lowered to its surroundings; weaker gains above 310 Hz stay. */
 TEST(a_peak_is_lowered_and_what_is_weaker_above_stays) {
     static const char file[] = "\xef\xbb\xbf" HEAD "# a comment\n20,4\n25,4\n40,4\n\n250,0.1024\n400,1e-6\n500,1e-6\n";
     knurl_gain gains[KNURL_GAINS]; /* felt: 0.1024, 0.1024, 0.1024 to 250 Hz */
@@ -54,7 +54,7 @@ TEST(a_peak_is_lowered_and_what_is_weaker_above_stays) {
     CHECK_CLOSE(gains[0].gain / gains[10].gain, 1.0, 0.01);
 }
 
-/* What is wrong with a file, and the sentence that says so. */
+/* Faults of a file, and their messages. */
 static const struct {
     const char *file, *sentence;
 } bad[] = {
@@ -117,7 +117,7 @@ TEST(a_plants_numbers_are_checked) {
     assert_int_equal(knurl_gains_from_plant(0.045, -1.0, 1000.0, gains), KNURL_ERROR_ARGUMENT);
     assert_int_equal(knurl_gains_from_plant(0.045, 0.5, 99.0, gains), KNURL_ERROR_ARGUMENT);
     CHECK_SAME(gains[0].gain, 0.7);
-    assert_int_equal(knurl_gains_from_plant(0.045, 0.5, 100.0, gains), KNURL_OK); /* beyond f_h/2: what is held there */
+    assert_int_equal(knurl_gains_from_plant(0.045, 0.5, 100.0, gains), KNURL_OK); /* above f_h/2: the gain there */
     for (int i = 0; i < KNURL_GAINS; i++) {
         assert_true(gains[i].gain > 0.0 && gains[i].gain <= 1.0);
     }

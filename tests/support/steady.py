@@ -50,8 +50,8 @@ def watch(cpu, page, place):
 
 def failing_checks(code, output):
     """The failures, as a set that can be compared between attempts: cmocka's file:line of each failed test; if there is
-    none (a script's test), the first line with a failure, otherwise the last one, without its numbers; where nothing
-    was printed, the exit code."""
+    none (a script's test), the first line with a failure, otherwise the last one, without its numbers; without output,
+    the exit code."""
     lines = [line.strip() for line in output.splitlines() if line.strip()]
     found = {match[1] for line in lines if (match := re.match(r"\[\s*LINE\s*\] --- (\S+:\d+): error", line))}
     if found:
@@ -63,7 +63,7 @@ def failing_checks(code, output):
 
 
 def run(command, environment):
-    """The command's exit code, and what it printed, which is passed on as it comes."""
+    """The command's exit code and its output, which is passed on as it comes."""
     process = subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     output = []
 
@@ -81,7 +81,7 @@ def run(command, environment):
 
 
 def attempt(command, environment):
-    """The command's exit code, the longest halt (s) while it ran, and what it printed."""
+    """The command's exit code, the longest halt (s) while it ran, and its output."""
     cpus = sorted(os.sched_getaffinity(0))
     page = mmap.mmap(-1, 8 * len(cpus))
     watchers = []

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""steady.py makes no test pass that fails, and none fail that the machine failed. SPDX-License-Identifier: MIT"""
+"""steady.py fails every broken test, and no test that the machine disturbed. SPDX-License-Identifier: MIT"""
 import contextlib
 import io
 import os
@@ -12,8 +12,8 @@ import steady
 
 class Steady(unittest.TestCase):
     def run_with(self, *outcomes):
-        """Its exit code for these attempts, (exit code, halt in s, what was printed) each; how many there were; what
-        it said. Attempts that print nothing fail at different checks."""
+        """Its exit code for these attempts, (exit code, halt in s, output) each; the number of attempts; its output.
+        Attempts that print nothing fail at different checks."""
         left = [(*outcome, f"[   LINE   ] --- some_test.c:{place}: error: Failure!")[:3]
                 for place, outcome in enumerate(outcomes)]
         attempt, sleep, said = steady.attempt, steady.time.sleep, io.StringIO()

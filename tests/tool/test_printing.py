@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The lint of what is printed finds each way round say(). SPDX-License-Identifier: MIT"""
+"""The lint of output finds every call that bypasses say(). SPDX-License-Identifier: MIT"""
 import unittest
 
 import printing

@@ -1,4 +1,4 @@
-/* `knurl sweep`: the response of a known device, the bounds of its force, and what ends it.
+/* `knurl sweep`: the response of a known device, the bounds of its force, and its ends.
  * SPDX-License-Identifier: MIT */
 #include "support/close.h"
 #include "support/tool.h"
@@ -155,7 +155,7 @@ TEST(a_fake_devices_response_is_its_plants) {
 #define TAG                                                                                                            \
     "{\"knurl\":{\"version\":1,\"spatial_frequency\":[1000,0],\"amplitude\":0.0002,\"stiffness\":400,\"axis\":[1,0,0]}}"
 
-/* The same gains, from the model and from what was measured of it. */
+/* The same gains, from the model and from its measured response. */
 TEST(run_and_inspect_tell_the_range_and_the_lowest_gain) {
     const char *plate = write_plate("plate.gltf", TAG);
     const char *out = tool_path("response.csv");

@@ -1,6 +1,4 @@
-/* knurl tag: what can be felt afterwards, that every other byte stays, and what is refused. SPDX-License-Identifier:
- * MIT
- */
+/* knurl tag: the surfaces afterwards, unchanged other bytes, and errors. SPDX-License-Identifier: MIT */
 #include "support/close.h"
 #include "support/tool.h"
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Compiles the stand-ins, the package and its tests, as C# 7 (what Unity 2021.3 and Debian's mcs both know), with
+# Compiles the stand-ins, the package and its tests, as C# 7 (which Unity 2021.3 and Debian's mcs both know), with
 # warnings as errors. usage: build.sh FOLDER
 # FOLDER/            the package as an editor compiles it, with tests
 # FOLDER/player/     the package as in a player: without UNITY_EDITOR

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Paths over the demo assets, and what `knurl run` makes of them, as doubles that C# reads without rounding:
+"""Paths over the demo assets, and the forces of `knurl run` on them, as doubles that C# reads without rounding:
 FOLDER/NAME.trace.bin (t, x, y, z a row; scene axes) and FOLDER/NAME.forces.bin (fx, fy, fz a tick), for meshes as they are
 and, in NAME.flat.forces.bin, without their normals: engines' own meshes are felt as triangles. Contact begins
 between two ticks, not on one: otherwise an amplitude's rounding to float would decide on which one, and cycles count
@@ -33,7 +33,7 @@ def grid_2d(t):
 
 
 def handle(t, profile):
-    """Around the handle, along it (x) at the same time, a little inside of where it is round."""
+    """Around the handle and along it (x) at the same time, a little inside its round surface."""
     depth = min(0.0006, -0.00401 + 0.02 * t) if t < 1.8 else 0.0006 - 0.03 * (t - 1.8)
     x = -0.015 + 0.015 * t
     after = next(i for i, (at, _) in enumerate(profile) if at > x)

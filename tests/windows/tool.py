@@ -172,7 +172,7 @@ class Tool(Home):
 
 
 class Emulated(Home):
-    """wine's server starts its drivers, so it has to be started where the device is, and to end there."""
+    """wine's server starts its drivers, so it must start and end inside the device's environment."""
 
     def setUp(self):
         self.end_wine()

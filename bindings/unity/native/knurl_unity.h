@@ -1,4 +1,4 @@
-/* Knurl in Unity: what the plugin exports beyond Knurl's own functions and a session's.
+/* Knurl in Unity: the plugin's exports besides Knurl's and the session's functions.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_UNITY_H
 #define KNURL_UNITY_H
@@ -24,7 +24,7 @@ KNURL_API const char *knurl_unity_interface(void);
 /** Row `index` of the layout: 1, or 0, with `row` untouched, beyond the end. [any thread] */
 KNURL_API uint32_t knurl_unity_layout(uint32_t index, knurl_unity_layout_row *row);
 
-/** knurl_session_update(), shown as "Knurl.Update" in Unity's profiler where there is one. [game thread] */
+/** knurl_session_update(), shown as "Knurl.Update" in Unity's profiler, if present. [game thread] */
 KNURL_API void knurl_unity_update(knurl_session *session);
 
 #ifdef __cplusplus

@@ -6,7 +6,7 @@
 
 #define KNURL_UNITY_INTERFACE "d496a5124f1f8430"
 
-/** Everything mirrored, where C# expects it: STRUCT(type, bytes), FIELD(type, field, its name in C#, offset, bytes). */
+/** The mirrored structs, as C# lays them out: STRUCT(type, bytes), FIELD(type, field, name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
     STRUCT(knurl_allocator, 24) \
     FIELD(knurl_allocator, allocate, "allocate", 0, 8) \

@@ -317,7 +317,7 @@ def cs_sizes(mirror):
 def cs_file(mirror, digits):
     types, members = cs_body(mirror)
     return f"""// {NOTE}
-// Names are C's, so that they can be searched for; what they mean stands in the headers.
+// Names are C's, so that they can be searched for; the headers document them.
 #pragma warning disable 0649 // fields that only C fills in
 using System;
 using System.Runtime.InteropServices;
@@ -329,12 +329,12 @@ namespace Knurl
     {{
         internal const string Library = "knurl_unity";
 
-        /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
+        /// <summary>The result of knurl_unity_interface() of the library that this file was generated for.</summary>
         internal const string Interface = "{digits}";
 
         internal const string Version = "{version(mirror)}";
 
-        /// <summary>What C# gives a struct of that name, in bytes; 0 where there is none.</summary>
+        /// <summary>The bytes of the struct of that name in C#; 0 if there is none.</summary>
         internal static int SizeOf(string type)
         {{
             switch (type)
@@ -365,7 +365,7 @@ def layout_file(mirror, digits):
 
 #define KNURL_UNITY_INTERFACE "{digits}"
 
-/** Everything mirrored, where C# expects it: STRUCT(type, bytes), FIELD(type, field, its name in C#, offset, bytes). */
+/** The mirrored structs, as C# lays them out: STRUCT(type, bytes), FIELD(type, field, name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \\
     {rows}
 

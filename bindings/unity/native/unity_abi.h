@@ -15,7 +15,7 @@
 /** An unused entry in a table of functions. */
 typedef void(UNITY_CALL *unity_unused)(void);
 
-/** What the engine hands to UnityPluginLoad(). The unused functions take their GUID as a struct by value, which Unity's
+/** The argument of UnityPluginLoad(). The unused functions take their GUID as a struct by value, which Unity's
  * C++ and C pass differently. */
 typedef struct unity_interfaces {
     unity_unused get_interface;

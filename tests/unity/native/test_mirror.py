@@ -20,7 +20,7 @@ folder = None
 
 
 class MirrorTest(unittest.TestCase):
-    """Each test has a copy of the headers and of what was made of them."""
+    """Each test has a copy of the headers and of the generated files."""
 
     def setUp(self):
         shutil.rmtree(folder, ignore_errors=True)
@@ -46,7 +46,7 @@ class MirrorTest(unittest.TestCase):
         return 1 + lines.index(text.splitlines()[0])
 
     def check(self):
-        """What --check says and exits with."""
+        """The exit code and output of --check."""
         said = io.StringIO()
         arguments, sys.argv = sys.argv, ["mirror.py", "--check"]
         try:

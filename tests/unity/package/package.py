@@ -1,4 +1,4 @@
-"""What the tests of the Unity package share: where things are, copies to break, metas.py as a module."""
+"""Shared by the tests of the Unity package: paths, copies to break, metas.py as a module."""
 import os
 import re
 import shutil

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The manifest and the assembly definitions hold what Unity asks for."""
+"""The manifest and the assembly definitions meet Unity's rules."""
 import json
 import os
 import re
@@ -130,7 +130,7 @@ class Scripts(unittest.TestCase):
                 self.assertEqual(os.path.basename(path), name + ".cs")
 
     def test_of_the_runtime_ask_for_no_type_by_its_name(self):
-        """IL2CPP strips what nobody names, and has no size for Marshal.SizeOf(Type) where a type is not marshalled."""
+        """IL2CPP strips unreferenced types, and Marshal.SizeOf(Type) fails for types that are not marshalled."""
         for path in scripts():
             if path.startswith("Runtime/"):
                 found = re.findall(r"Marshal\.SizeOf|using System\.Reflection|\bType\.GetType|Activator\.",

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every file and folder of the package has a meta that Unity takes, and what is wrong with one is named."""
+"""Every file and folder of the package has a meta that Unity accepts, and a meta's faults are named."""
 import os
 import subprocess
 import sys

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""package.sh makes what the Package Manager takes. The libraries are stand-ins: what is in them does not matter."""
+"""package.sh makes a package that the Package Manager accepts. The libraries are stand-ins."""
 import json
 import os
 import re
@@ -31,7 +31,7 @@ MACOS = "Plugins/macOS/libknurl_unity.dylib"
 
 
 def make_library(path, compiler, magic):
-    """A library with nothing in it, or a file that starts like one where that cannot be made."""
+    """An empty library, or without a compiler for it a file that starts like one."""
     if shutil.which(compiler):
         command = [compiler, "-shared", "-g", "-o", path, "-x", "c", "-"]
         code = "int knurl_stand_in(void); int knurl_stand_in(void) { return 1; }"
@@ -68,7 +68,7 @@ def paths_in(out):
 
 
 class Packed(unittest.TestCase):
-    """What comes out, looked at."""
+    """The files of the package."""
 
     @classmethod
     def setUpClass(cls):
@@ -240,7 +240,7 @@ class Packing(package.InFolder):
         self.assertEqual(self.git("ls-tree", "--name-only", "main"), ".gitignore\n")
 
     def copy_of_sources(self):
-        """What package.sh reads, to be broken."""
+        """A copy of package.sh's inputs, to be broken."""
         unity = os.path.join(self.folder, "bindings", "unity")
         package.copy_of_package(os.path.join(unity, "package"))
         for name in ("metas.py", "package.sh", "validate.py"):

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What Unity's package validation asks for, and each fault named."""
+"""The checks of Unity's package validation; each fault is named."""
 import json
 import os
 import unittest

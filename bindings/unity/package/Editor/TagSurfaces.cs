@@ -12,7 +12,7 @@ namespace Knurl.Editing
     /// object, which Unity names after the file.</summary>
     internal static class TagSurfaces
     {
-        const string PartMark = " / "; // Knurl's names are "node / material" where a mesh has several primitives
+        const string PartMark = " / "; // Knurl's names are "node / material" if a mesh has several primitives
 
         /// <summary>Kinds of matches between an object's names and a tag, the most certain first.</summary>
         enum Match

@@ -1,5 +1,5 @@
 // Generated from Knurl's headers by bindings/unity/native/mirror.py, which makes it anew; do not edit.
-// Names are C's, so that they can be searched for; what they mean stands in the headers.
+// Names are C's, so that they can be searched for; the headers document them.
 #pragma warning disable 0649 // fields that only C fills in
 using System;
 using System.Runtime.InteropServices;
@@ -670,12 +670,12 @@ namespace Knurl
     {
         internal const string Library = "knurl_unity";
 
-        /// <summary>What knurl_unity_interface() says where the library is the one that this was made for.</summary>
+        /// <summary>The result of knurl_unity_interface() of the library that this file was generated for.</summary>
         internal const string Interface = "d496a5124f1f8430";
 
         internal const string Version = "0.3.0";
 
-        /// <summary>What C# gives a struct of that name, in bytes; 0 where there is none.</summary>
+        /// <summary>The bytes of the struct of that name in C#; 0 if there is none.</summary>
         internal static int SizeOf(string type)
         {
             switch (type)
