@@ -7,20 +7,22 @@
 #include <stdio.h>
 #include <string.h>
 
-#define TAU         6.283185307179586
-#define RIDGE       0.001
-#define RESOLUTION  0.055e-3 /* the Touch's */
-#define LOW_PASS_HZ 20.0 /* the delay of FOAW's widest window, 8 ms. 10 Hz would halve the error and double the delay  \
-                          */
-#define START 0.123      /* cycles: not at an edge, crest or middle */
+#define TAU        6.283185307179586
+#define RIDGE      0.001
+#define RESOLUTION 0.055e-3 /* the Touch's */
+#define LOW_PASS_HZ                                                                                                    \
+    20.0            /* the delay of FOAW's widest window, 8 ms. 10 Hz would halve the error and double the delay       \
+                     */
+#define START 0.123 /* cycles: not at an edge, crest or middle */
 
-const study_method study_methods[] = {{"T1", KNURL_WAVE_T1, 0, 0},
-                                      {"T2", KNURL_WAVE_T2, 0, 0},
-                                      {"T3", KNURL_WAVE_T3, 0, 0},
-                                      {"S1", KNURL_METHOD_S1, 1, 0},
-                                      {"S2", KNURL_METHOD_S2, 1, 1},
-                                      {"bandlimited", KNURL_METHOD_BANDLIMITED, 1, 1},
-                                      {NULL, 0, 0, 0}};
+study_method study_methods[] = {{"T1", KNURL_WAVE_T1, 0, 0},
+                                {"T2", KNURL_WAVE_T2, 0, 0},
+                                {"T3", KNURL_WAVE_T3, 0, 0},
+                                {"S1", KNURL_METHOD_S1, 1, 0},
+                                {"S2", KNURL_METHOD_S2, 1, 1},
+                                {"bandlimited", KNURL_METHOD_BANDLIMITED, 1, 1},
+                                {NULL, 0, 0, 0}, /* study_add_own()'s */
+                                {NULL, 0, 0, 0}};
 
 static const double rates[] = {1000.0, 2000.0, 5000.0, 10000.0};
 

@@ -20,7 +20,10 @@ typedef struct study_method {
 } study_method;
 
 /** All methods, ended by a null name. */
-extern const study_method study_methods[];
+extern study_method study_methods[];
+
+/** Adds the method of own.c after the others, for this process. Once. Errors: those of knurl_method_add(). */
+knurl_result study_add_own(void);
 
 /** One point of the chart. */
 typedef struct study_contender {

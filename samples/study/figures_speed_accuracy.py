@@ -8,6 +8,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from style import HALO, INK, METHODS, read_table
 
+OWN = "#3a3a3a"  # of a method that style.py has no colour for
 ABOUT = {"S1": "the surface at a point", "S2": "events, by the speed", "bandlimited": "the harmonics that fit"}
 # Of labels: the point, the offset from it (in points), and the side.
 PLACES = {"S1": (1, -44, -28, "left"), "S2": (3, 14, 34, "left"), "bandlimited": (1, 16, 20, "left")}
@@ -45,7 +46,7 @@ def draw_line(ax, table, method, points, colour):
         under = rate < 10 if method == "S1" else rate > 2
         ax.annotate(f"{rate:g}" + (" kHz" if rate in (1, 10) else ""), (x, y), xytext=(0, -16 if under else 8),
                     textcoords="offset points", ha="center", fontsize=9.5, color=colour, zorder=6, path_effects=HALO)
-    place, dx, dy, side = PLACES.get(method, (-1, 8, 0, "left"))
+    place, dx, dy, side = PLACES.get(method, (2, 8, 32, "left"))
     for text, style, below in ((method, {"fontsize": 14, "fontweight": "bold"}, 0),
                                (others(table, method), {"fontsize": 10, "linespacing": 1.1}, 9)):
         ax.annotate(text, (xs[place], ys[place]), xytext=(dx, dy - below), textcoords="offset points", color=colour,
@@ -68,7 +69,7 @@ def draw_speed_accuracy(data, folder):
     ax = figure.add_axes((0.095, 0.105, 0.625, 0.7))
     above = lines(table, "felt_above")
     for (method, velocity), points in lines(table, "felt_worst").items():
-        colour = METHODS[method]
+        colour = METHODS.get(method, OWN)
         if velocity in ("none", "foaw"):
             draw_line(ax, table, method, points, colour)
             ax.plot([x for x, *_ in points], [y for _, y, _ in above[method, velocity]], "o", color=colour, ms=5,
@@ -96,11 +97,13 @@ def draw_speed_accuracy(data, folder):
                 color=INK, alpha=0.75, va="center")
     shapes = data["shapes"]
     figure.text(0.755, 0.795, f"20 ms at {shapes['hz']:g} Hz and 1 kHz", fontsize=11, color=INK, alpha=0.75)
-    for place, method in enumerate(name for name in ABOUT if name in shapes):
-        small = figure.add_axes((0.755, 0.595 - 0.235 * place, 0.23, 0.15))
-        colour = METHODS[method]
+    names = [name for name in shapes if name != "hz"]
+    room = min(1, 3 / len(names))
+    for place, method in enumerate(names):
+        small = figure.add_axes((0.755, 0.745 - room * (0.15 + 0.235 * place), 0.23, 0.15 * room))
+        colour = METHODS.get(method, OWN)
         draw_shape(small, shapes[method], colour)
-        small.set_title(f"{method}: {ABOUT[method]}", fontsize=10.5, color=colour, pad=2)
+        small.set_title(f"{method}: {ABOUT.get(method, 'your own')}", fontsize=10.5, color=colour, pad=2)
     return figure
 
 

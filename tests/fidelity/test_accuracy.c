@@ -62,3 +62,17 @@ TEST(bandlimited_through_counts_keeps_its_goals) {
     assert_true(mm.crest < 1.28 && half.crest < 1.28);
     assert_true(mm.step < 0.055 && half.step < 0.11); /* a count */
 }
+
+/* A triangle's first harmonic is 8/pi^2, its ninth and so on push at 3 ticks a cycle: from 0.123 cycles on its heights
+ * are 0.508, -0.824 and 0.156. */
+TEST(an_own_method_is_measured_by_the_same_formulas) {
+    const double pi = 3.141592653589793;
+    int32_t method = 0;
+    assert_int_equal(study_add_own(), KNURL_OK);
+    assert_int_equal(knurl_method_from_name("triangle", &method), KNURL_OK);
+    const accuracy a = measure(method, STUDY_IDEAL, 0.0, 1e-3);
+    CHECK_CLOSE(a.level, 1.0 - 8.0 / (pi * pi) / (4.0 / pi), 1e-3);
+    CHECK_CLOSE(a.mean_worst, 0.16 / 3.0, 1e-3);
+    CHECK_CLOSE(a.crest, 1.0, 1e-4);
+    CHECK_CLOSE(a.step, 0.0, 1e-9);
+}

@@ -227,9 +227,19 @@ TEST(a_session_interrupted_in_its_first_trial_ends_with_130_and_writes_no_file) 
     assert_false(file_exists(path));
 }
 
-TEST(a_comparison_names_the_library_s_methods) {
+/* By name, which the records keep. */
+TEST(a_method_of_one_s_own_can_be_compared_and_analysed) {
+    const char *path = tool_path("own.csv");
+    SCOPED_PROCESS p = RUN("compare", "triangle", "S2", "--fast", "--seed", "9", "--out", path);
+    assert_int_equal(p.exit_code, 0);
+    SCOPED_PROCESS found = RUN("analyse", path);
+    assert_int_equal(found.exit_code, 0);
+    assert_non_null(strstr(found.out, "S2 against triangle: 12 trials"));
+}
+
+TEST(a_comparison_names_the_methods) {
     process p = RUN("compare", "S1", "T3", "--fast");
-    check_failed(&p, 2, "expected S1, S2");
+    check_failed(&p, 2, "expected S1, S2, bandlimited or triangle, found 'T3'");
     p = RUN("compare", "S1", "S1", "--fast");
     check_failed(&p, 2, "twice");
     p = RUN("compare", "S1");

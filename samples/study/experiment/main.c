@@ -1,6 +1,7 @@
 /* knurl_experiment: the paper's experiments, and any two methods, on any device. SPDX-License-Identifier: MIT */
 #include "experiment.h"
 
+#include "contender.h"
 #include "os.h"
 #include "say.h"
 
@@ -12,7 +13,7 @@ static const char help[] =
     "knurl_experiment: which of two methods do people prefer? The paper's three experiments, and any two methods\n"
     "\n"
     "  knurl_experiment 1|2|3 [options]               a session with one subject; a CSV, a row a trial\n"
-    "  knurl_experiment compare METHOD METHOD [...]   the same, two of the library's methods: S1, S2, bandlimited, ...\n"
+    "  knurl_experiment compare METHOD METHOD [...]   the same, two of S1, S2, bandlimited, or your own (study/own.c)\n"
     "  knurl_experiment analyse CSV...                exclusions, counts, Eq. 14, intervals and verdicts\n"
     "  knurl_experiment power [options]               how many subjects are needed for which effect\n"
     "\n"
@@ -265,5 +266,8 @@ static int dispatch(int argc, char **argv) {
 int main(int argc, char **argv) {
     tool_name = "knurl_experiment";
     os_begin(&argc, &argv);
+    if (study_add_own()) {
+        return tool_end(tool_error(TOOL_FAILURE, "samples/study/own.c: %s", knurl_error_message()));
+    }
     return tool_end(dispatch(argc, argv));
 }

@@ -1,6 +1,7 @@
 /* knurl study: the numbers behind the figures and charts. SPDX-License-Identifier: MIT */
 #include "programs.h"
 
+#include "contender.h"
 #include "options.h"
 #include "study.h"
 
@@ -18,9 +19,16 @@ static int unknown(const char *name) {
 int cmd_study(int argc, char **argv) {
     const char *name = NULL;
     const char *folder = NULL;
-    const tool_option options[] = {{"--out", TOOL_TEXT, &folder, 0, 0, ""}};
-    if (tool_parse(argc, argv, options, 1, &name) != TOOL_OK) {
+    int own = 0;
+    const tool_option options[] = {{"--out", TOOL_TEXT, &folder, 0, 0, ""}, {"--own", TOOL_FLAG, &own, 0, 0, ""}};
+    if (tool_parse(argc, argv, options, 2, &name) != TOOL_OK) {
         return TOOL_USAGE;
+    }
+    if (own && !(name && strcmp(name, "tradeoff") == 0)) {
+        return tool_error(TOOL_USAGE, "study: --own: expected tradeoff, found '%s'", name ? name : "none");
+    }
+    if (own && study_add_own()) {
+        return tool_error(TOOL_FAILURE, "study: --own: %s", knurl_error_message());
     }
     for (const study *s = studies; name && s->name; s++) {
         if (strcmp(s->name, name) == 0) {

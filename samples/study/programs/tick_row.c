@@ -10,7 +10,7 @@ int main(int argc, char **argv) {
     study_contender contender;
     study_rendering rendering;
     volatile double sink = 0.0;
-    if (argc != 3 || !study_contender_at(strtoul(argv[1], NULL, 10), &contender) ||
+    if (study_add_own() || argc != 3 || !study_contender_at(strtoul(argv[1], NULL, 10), &contender) ||
         study_rendering_start(&rendering, &contender, 137.0)) {
         fputs("usage: knurl_tick_row INDEX TICKS\n", stderr);
         return 2;
