@@ -41,6 +41,7 @@ VALUES = {
     "knurl_scene_get_contacts.capacity": "1",
     "radius double": "1.0",
     "knurl_scene_tick_batch.count": "1",
+    "knurl_scene_find_closest_batch.count": "1",
     "knurl_scene_set_gains.count": "0",
     "gains knurl_gain *": "f->gains",
     "knurl_gains_from_response.file": r'"# knurl response 1\nfrequency_hz,gain\n20,1\n400,1\n"',

@@ -89,6 +89,15 @@ class Module(unittest.TestCase):
             np.testing.assert_array_equal(results[0][name], results[1][name])
         self.assertGreater(results[0]["event"].max(), 10)
 
+    def test_the_closest_points_of_a_plate_are_below_or_at_its_rim(self):
+        scene = knurl.Scene()
+        plate = scene.add_plane(half_extents=(0.05, 0.05))
+        scene.commit()
+        found = scene.closest([(0.01, 0.02, 0.003), (0.08, 0.0, 0.04), (0.0, 0.0, 2.0)])
+        np.testing.assert_allclose(found["distance"], (0.003, 0.05, 0.0), atol=1e-12)
+        np.testing.assert_allclose(found["position"], [(0.01, 0.02, 0.0), (0.05, 0.0, 0.0), (0.0, 0.0, 0.0)], atol=1e-12)
+        self.assertEqual(found["surface"].tolist(), [plate.id, plate.id, 0])
+
     def test_a_gltf_file_is_loaded_and_stroked_by_the_fake_device(self):
         scene = knurl.Scene()
         surfaces = scene.load(os.path.join(ASSETS, "plate_1d.glb"))

@@ -57,6 +57,7 @@ TEST(questions_to_a_scene_refuse_null) {
     REFUSED(knurl_scene_find_closest(NULL, at, 1.0, &point), point);
     REFUSED(knurl_scene_find_closest(s, NULL, 1.0, &point), point);
     REFUSED(knurl_scene_find_closest(s, at, 1.0, NULL), id);
+    REFUSED(knurl_scene_find_closest_batch(s, NULL, 1, 1.0, &point), point);
     REFUSED(knurl_scene_cast_ray(NULL, at, to, &point), point);
     REFUSED(knurl_scene_cast_ray(s, NULL, to, &point), point);
     REFUSED(knurl_scene_cast_ray(s, at, NULL, &point), point);

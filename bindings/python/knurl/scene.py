@@ -15,6 +15,7 @@ from .ticks import OUTPUTS, Ticks, as_ticks, copy_fields, packed
 _INPUTS = arrays_of("knurl_tick_input")
 _COUNTS = arrays_of("knurl_hip_counts")
 _CONTACTS = arrays_of("knurl_hip_contact")
+_POINTS = arrays_of("knurl_surface_point")
 _CHUNK = 1024 # ticks per call: enough to hide the cost of a call, few enough to stay in the cache
 
 
@@ -296,6 +297,16 @@ class Scene(Owner):
                  (positions[begin:begin + rows] for begin in range(0, len(positions), rows))) # type: ignore
         for part in parts:
             yield self.tick(part, hip=hip, fields=fields)
+
+    def closest(self, positions: ArrayLike, radius: float = 1.0) -> np.ndarray:
+        """The closest point of all surfaces to each of positions (n, 3), scene axes, m, up to radius (m) away: rows of
+        knurl_surface_point, "surface", "distance", "position", "normal"; surface 0: no point is so near."""
+        rows = _rows(positions, 3, "f8", "positions")
+        found = np.zeros(len(rows), _POINTS)
+        found["struct_size"] = _POINTS.itemsize
+        check(lib.knurl_scene_find_closest_batch(self.handle, ffi.from_buffer("double[]", rows), len(rows), radius,
+                                                 ffi.from_buffer("knurl_surface_point[]", found)))
+        return found
 
     def latest(self, hip: int = 0) -> Tuple[np.ndarray, np.ndarray]:
         """The last tick and the counts so far, also while a loop ticks the scene: a row of knurl_tick_output and one of

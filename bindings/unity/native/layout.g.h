@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "d496a5124f1f8430"
+#define KNURL_UNITY_INTERFACE "f77ef2f8d1028b1a"
 
 /** The mirrored structs, as C# lays them out: STRUCT(type, bytes), FIELD(type, field, name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
@@ -350,7 +350,7 @@
     FIELD(knurl_surface_info, felt_angle, "felt_angle", 376, 16) \
     STRUCT(knurl_surface_point, 72) \
     FIELD(knurl_surface_point, struct_size, "struct_size", 0, 4) \
-    FIELD(knurl_surface_point, reserved, "reserved", 4, 4) \
+    FIELD(knurl_surface_point, hint, "hint", 4, 4) \
     FIELD(knurl_surface_point, surface, "surface", 8, 8) \
     FIELD(knurl_surface_point, distance, "distance", 16, 8) \
     FIELD(knurl_surface_point, position, "position", 24, 24) \

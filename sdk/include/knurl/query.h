@@ -88,7 +88,7 @@ KNURL_API knurl_result knurl_scene_get_surface_info(const knurl_scene *scene, kn
 /** A point on a surface. An output: set struct_size with knurl_surface_point_init() first. */
 typedef struct knurl_surface_point {
     uint32_t struct_size;
-    uint32_t reserved;        /**< 0 */
+    uint32_t hint;            /**< where the next search begins, with `surface`; its number means nothing else */
     knurl_surface_id surface; /**< 0: no point was found, and all other fields are 0 */
     double distance;          /**< m */
     double position[3];       /**< scene axes, m */
@@ -99,10 +99,17 @@ typedef struct knurl_surface_point {
 KNURL_API void knurl_surface_point_init(knurl_surface_point *point, uint32_t size);
 
 /** Finds the closest point of all surfaces in their current poses to `position` (scene axes, m, within
- * KNURL_COORDINATE_MAX), up to `radius` (m, > 0) away. Ignores gratings. The time grows with the number of surfaces;
- * other editing threads wait, ticks do not. Errors: KNURL_ERROR_ARGUMENT. [any thread but the haptic] */
+ * KNURL_COORDINATE_MAX), up to `radius` (m, > 0) away. Ignores gratings. If `point` holds an earlier answer, of any
+ * scene, the search begins there: the answer is the same, and sooner found if it is near. Other editing threads wait,
+ * ticks do not. Errors: KNURL_ERROR_ARGUMENT. [any thread but the haptic] */
 KNURL_API knurl_result knurl_scene_find_closest(const knurl_scene *scene, const double position[3], double radius,
                                                 knurl_surface_point *point);
+
+/** The same for `count` positions (three numbers each): each search begins at the last one's answer, the first at
+ * points[0]. points: `count`, the caller's, struct_size set in each. Errors: as above, and then no point is changed.
+ * [any thread but the haptic] */
+KNURL_API knurl_result knurl_scene_find_closest_batch(const knurl_scene *scene, const double *positions, uint64_t count,
+                                                      double radius, knurl_surface_point *points);
 
 /** Finds the first point at which the straight line from `from` to `to` (scene axes, m, within KNURL_COORDINATE_MAX)
  * passes through a surface in its current pose: through its front or, if it is double-sided, through either side.

@@ -6,11 +6,6 @@
 #include "base/heap.h"
 
 #include <math.h>
-#include <string.h>
-
-#if defined(__SSE2__)
-#include <emmintrin.h>
-#endif
 
 /* Maximum depth of a tree, and so the size of a traversal's stack. */
 #define KNURL_BVH_DEPTH_MAX 64
@@ -64,45 +59,6 @@ static inline int knurl_bvh_meets(const knurl_bvh_node *node, const double low[3
         }
     }
     return 1;
-}
-
-/* The same tests on four floats at a time, for searches of many nodes. GCC and Clang vectors: x, y, z and an unused
- * number. */
-typedef float knurl_float4 __attribute__((vector_size(16)));
-typedef int32_t knurl_mask4 __attribute__((vector_size(16)));
-
-/* A box, rounded outwards. */
-typedef struct knurl_search_box {
-    knurl_float4 low, high;
-} knurl_search_box;
-
-/* More than two roundings to float: relative, and absolute for subnormal numbers. */
-#define KNURL_FLOAT_ROUNDING 1.2e-7f
-#define KNURL_FLOAT_TINY     1e-37f
-
-static inline void knurl_search_box_set(const double low[3], const double high[3], knurl_search_box *box) {
-    for (int axis = 0; axis < 3; axis++) {
-        const float least = (float)low[axis], most = (float)high[axis];
-        box->low[axis] = least - (fabsf(least) * KNURL_FLOAT_ROUNDING + KNURL_FLOAT_TINY);
-        box->high[axis] = most + (fabsf(most) * KNURL_FLOAT_ROUNDING + KNURL_FLOAT_TINY);
-    }
-    box->low[3] = box->high[3] = 0.0f;
-}
-
-/* 1 if a comparison is true in x, y or z. */
-static inline int knurl_mask4_any(knurl_mask4 mask) {
-#if defined(__SSE2__)
-    return (_mm_movemask_ps((__m128)mask) & 7) != 0;
-#else
-    return (mask[0] | mask[1] | mask[2]) != 0;
-#endif
-}
-
-static inline int knurl_search_box_meets_node(const knurl_search_box *box, const knurl_bvh_node *node) {
-    knurl_float4 min, max; /* the fourth numbers are the node's integers, and ignored */
-    memcpy(&min, node, sizeof min);
-    memcpy(&max, (const char *)node + sizeof min, sizeof max);
-    return !knurl_mask4_any((box->low > max) | (box->high < min));
 }
 
 #endif

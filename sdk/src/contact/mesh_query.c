@@ -4,28 +4,16 @@
 
 #include "base/base.h"
 #include "contact/closest_point.h"
+#include "contact/leaf_bound.h"
 #include "contact/mesh_search.h"
 
 #include <string.h>
-
-/* 1 if the triangle's plane is farther from p than the square root of `best2`. The two added terms cover rounding:
- * never 1 for a triangle that is as near. */
-static int is_plane_beyond(const knurl_mesh *mesh, uint32_t triangle, const double p[3], double best2) {
-    double corners[3][3], ab[3], ac[3], ap[3], normal[3];
-    knurl_mesh_corners(mesh, triangle, corners);
-    vec3_sub(corners[1], corners[0], ab);
-    vec3_sub(corners[2], corners[0], ac);
-    vec3_sub(p, corners[0], ap);
-    vec3_cross(ab, ac, normal);
-    const double height = vec3_dot(ap, normal);
-    return height * height > (best2 * (1.0 + 1e-9) + 1e-24) * vec3_dot(normal, normal);
-}
 
 /* Keeps a triangle's closest point if it is nearer than `best2`; returns the smaller squared distance. */
 static double closest_in_triangle(const knurl_mesh *mesh, uint32_t triangle, const double p[3], double best2,
                                   knurl_visits *visits, knurl_contact *nearest) {
     knurl_closest_point closest;
-    if (is_plane_beyond(mesh, triangle, p, best2) || !knurl_visits_take(visits, KNURL_VISITS_CLOSEST)) {
+    if (!knurl_visits_take(visits, KNURL_VISITS_CLOSEST)) {
         return best2;
     }
     knurl_closest_on_triangle(mesh, triangle, p, &closest);
@@ -57,44 +45,71 @@ KNURL_PREFETCHING void fetch_corners(const knurl_mesh *mesh, const knurl_bvh_nod
     }
 }
 
+/* Upper bound of a double as a float. */
+static inline float round_up(double value) {
+    return value < 1e38 ? (float)value * (1.0f + KNURL_FLOAT_ROUNDING) + KNURL_FLOAT_TINY : HUGE_VALF;
+}
+
+/* Keeps the closest point of a leaf if it is nearer than `best2`; returns the smaller squared distance. */
+static double closest_in_leaf(const knurl_mesh *mesh, const knurl_bvh_node *leaf, const double p[3],
+                              const knurl_leaf_point *lanes, double best2, knurl_visits *visits,
+                              knurl_contact *nearest) {
+    const uint32_t last = leaf->first + leaf->count - 1;
+    fetch_corners(mesh, leaf);
+    for (uint32_t first = leaf->first; first <= last; first += 4) {
+        const knurl_float4 bound2 = knurl_leaf_bound2(mesh, first, last, lanes);
+        for (uint32_t i = 0; i < 4 && first + i <= last; i++) {
+            if (!((double)bound2[i] >= best2)) {
+                best2 = closest_in_triangle(mesh, first + i, p, best2, visits, nearest);
+            }
+        }
+    }
+    return best2;
+}
+
 int knurl_mesh_closest(const knurl_mesh *mesh, const double p[3], double radius, knurl_part *part, knurl_visits *visits,
                        knurl_contact *nearest) {
     struct {
-        double distance2;
+        float distance2;
         uint32_t index;
     } stack[KNURL_BVH_DEPTH_MAX];
-    uint32_t top = 1;
+    uint32_t top = 0;
     const double limit2 = radius * radius * (1.0 + 1e-12) + 1e-300; /* a point at `radius` counts, also at 0 */
     double best2 = limit2;
+    float limit = round_up(best2);
     double low[3], high[3];
+    knurl_search_point point;
+    knurl_leaf_point lanes;
     knurl_bvh_bound(p, p, sqrt(limit2), low, high);
-    stack[0].index = knurl_mesh_find_part(mesh, low, high, visits, part)->node;
-    stack[0].distance2 = knurl_bvh_distance2(&mesh->nodes[stack[0].index], p);
+    knurl_search_point_set(p, &point);
+    knurl_leaf_point_set(p, &lanes);
+    stack[top].index = knurl_mesh_find_part(mesh, low, high, visits, part)->node;
+    stack[top].distance2 = knurl_search_node_distance2(&point, &mesh->nodes[stack[top].index]);
+    top++;
     while (top > 0) {
-        const uint32_t index = stack[--top].index;
-        const knurl_bvh_node *node = &mesh->nodes[index];
-        if (stack[top].distance2 >= best2) {
-            continue;
-        }
-        if (!knurl_visits_take(visits, 2 + node->count)) { /* the boxes of a node's children count too */
-            break;
-        }
-        fetch_corners(mesh, node); /* nothing for an inner node */
-        for (uint32_t i = 0; i < node->count; i++) {
-            best2 = closest_in_triangle(mesh, node->first + i, p, best2, visits, nearest);
-        }
-        if (node->count == 0) { /* the nearer child is visited first */
+        uint32_t index = stack[--top].index;
+        float distance2 = stack[top].distance2;
+        while (distance2 < limit) {
+            const knurl_bvh_node *node = &mesh->nodes[index];
+            if (!knurl_visits_take(visits, 2 + node->count)) { /* the boxes of a node's children count too */
+                return best2 < limit2;
+            }
+            if (node->count > 0) {
+                best2 = closest_in_leaf(mesh, node, p, &lanes, best2, visits, nearest);
+                limit = round_up(best2);
+                break;
+            }
             const uint32_t children[2] = {index + 1, node->first};
-            const double distances2[2] = {knurl_bvh_distance2(&mesh->nodes[children[0]], p),
-                                          knurl_bvh_distance2(&mesh->nodes[children[1]], p)};
-            const int nearer = distances2[0] <= distances2[1] ? 0 : 1;
+            const float distances2[2] = {knurl_search_node_distance2(&point, &mesh->nodes[children[0]]),
+                                         knurl_search_node_distance2(&point, &mesh->nodes[children[1]])};
+            const int right_first = distances2[1] < distances2[0]; /* the nearer child is visited first */
             fetch_next(mesh, &mesh->nodes[children[0]]);
             fetch_next(mesh, &mesh->nodes[children[1]]);
-            for (int k = 0; k < 2; k++) {
-                const int child = k == 0 ? 1 - nearer : nearer;
-                stack[top].index = children[child];
-                stack[top++].distance2 = distances2[child];
-            }
+            stack[top].index = right_first ? children[0] : children[1];
+            stack[top].distance2 = right_first ? distances2[0] : distances2[1];
+            top += stack[top].distance2 < limit;
+            index = right_first ? children[1] : children[0];
+            distance2 = right_first ? distances2[1] : distances2[0];
         }
     }
     return best2 < limit2;

@@ -5,6 +5,7 @@
 #define KNURL_SRC_MESH_SEARCH_H
 
 #include "base/vec3.h"
+#include "contact/bvh_search.h"
 #include "contact/contact.h"
 #include "contact/mesh.h"
 

@@ -1,10 +1,9 @@
-/* Queries for games: ids, the closest point, ray casts, all contacts of a HIP.
+/* Queries for games: ids, ray casts, all contacts of a HIP.
  * SPDX-License-Identifier: MIT */
 #include "scene/scene.h"
 
 #include "base/base.h"
 #include "base/range.h"
-#include "contact/mesh_query.h"
 
 #include <string.h>
 
@@ -21,85 +20,6 @@ uint32_t knurl_scene_has_surface(const knurl_scene *scene, knurl_surface_id surf
 void knurl_surface_point_init(knurl_surface_point *point, uint32_t size) {
     const knurl_surface_point defaults = {0};
     knurl_desc_write(&defaults, sizeof defaults, point, size);
-}
-
-/* m: from a point to a box. */
-static double distance_to_box(const double p[3], const double low[3], const double high[3]) {
-    double off[3];
-    for (int axis = 0; axis < 3; axis++) {
-        off[axis] = fmax(0.0, fmax(low[axis] - p[axis], p[axis] - high[axis]));
-    }
-    return vec3_length(off);
-}
-
-/* Finds the closest point and its outward normal, shape's frame. Returns 0 if there is no point within the radius. */
-static int find_closest(const knurl_shape *shape, const double p[3], double radius, double closest[3],
-                        double normal[3]) {
-    normal[0] = normal[1] = 0.0;
-    normal[2] = 1.0;
-    if (shape->plane) {
-        knurl_plane_closest(shape->plane, p, closest);
-        return 1;
-    }
-    knurl_contact found;
-    knurl_triangle triangle;
-    if (!knurl_mesh_closest(shape->geometry, p, radius, NULL, NULL, &found)) {
-        return 0;
-    }
-    knurl_mesh_triangle(shape->geometry, found.triangle, &triangle);
-    vec3_copy(found.proxy, closest);
-    vec3_copy(triangle.normal, normal);
-    return 1;
-}
-
-/* Tests one surface. best: the closest point so far; at first without a surface, and with the radius as distance. */
-static void look_at(const knurl_scene *scene, const knurl_surface_data *surface, const double position[3],
-                    knurl_surface_point *best) {
-    const double now = knurl_scene_time(scene);
-    const knurl_motion *motion = &surface->record->motion;
-    knurl_pose pose;
-    double low[3], high[3], own[3], closest[3], normal[3];
-    knurl_surface_bounds(surface, motion, now, low, high);
-    if (!(distance_to_box(position, low, high) <= best->distance)) {
-        return;
-    }
-    knurl_motion_at(motion, now, &pose);
-    knurl_pose_to_own(&pose, position, own);
-    if (!find_closest(&surface->shape, own, best->distance, closest, normal)) {
-        return;
-    }
-    knurl_pose_to_parent(&pose, closest, closest);
-    double off[3];
-    vec3_sub(position, closest, off);
-    const double distance = vec3_length(off);
-    if (distance < best->distance || (distance == best->distance && !best->surface)) {
-        best->surface = surface->id;
-        best->distance = distance;
-        vec3_copy(closest, best->position);
-        knurl_pose_vector_to_parent(&pose, normal, best->normal);
-    }
-}
-
-knurl_result knurl_scene_find_closest(const knurl_scene *scene, const double position[3], double radius,
-                                      knurl_surface_point *point) {
-    if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(position) || KNURL_IS_NULL(point)) {
-        return KNURL_ERROR_ARGUMENT;
-    }
-    const knurl_result result = knurl_check_coordinates("position", "m", position);
-    if (result) {
-        return result;
-    }
-    if (!(radius > 0.0)) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "radius: expected more than 0 m, found %g", radius);
-    }
-    knurl_surface_point best = {.distance = radius};
-    knurl_scene_lock(scene);
-    for (uint32_t i = 0; i < scene->surfaces.count; i++) {
-        look_at(scene, knurl_surfaces_at(&scene->surfaces, i), position, &best);
-    }
-    knurl_scene_unlock(scene);
-    best.distance = best.surface ? best.distance : 0.0;
-    return knurl_desc_return("knurl_surface_point", &best, sizeof best, point);
 }
 
 /* 1 if the box of a segment comes within `margin` (m) of another box. */

@@ -8,7 +8,7 @@
 #include "surface/broad_phase.h"
 
 #include "base/atomic.h"
-#include "contact/bvh.h"
+#include "contact/bvh_search.h"
 
 #include <string.h>
 

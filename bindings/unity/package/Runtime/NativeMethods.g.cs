@@ -506,7 +506,7 @@ namespace Knurl
     internal unsafe struct knurl_surface_point
     {
         public uint struct_size;
-        public uint reserved;
+        public uint hint;
         public ulong surface;
         public double distance;
         public fixed double position[3];
@@ -671,7 +671,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>The result of knurl_unity_interface() of the library that this file was generated for.</summary>
-        internal const string Interface = "d496a5124f1f8430";
+        internal const string Interface = "f77ef2f8d1028b1a";
 
         internal const string Version = "0.3.0";
 
@@ -1215,6 +1215,10 @@ namespace Knurl
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_scene_find_closest(knurl_scene* scene, double* position, double radius,
             knurl_surface_point* point);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_scene_find_closest_batch(knurl_scene* scene, double* positions, ulong count,
+            double radius, knurl_surface_point* points);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_scene_cast_ray(knurl_scene* scene, double* from, double* to,
