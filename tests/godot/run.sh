@@ -21,9 +21,9 @@ mkdir -p "$folder/.godot"
 folder=$(cd "$folder" && pwd)
 rm -f "$folder"/*.gd
 cp "$here"/*.gd "$here"/project.godot "$here"/knurl.gdextension "$library" "$folder/"
-cp "$root"/assets/plate_1d.glb "$folder/"
+cp "$root"/assets/{plate_1d,grid_2d,knurled_handle}.glb "$folder/"
 echo 'res://knurl.gdextension' >"$folder/.godot/extension_list.cfg"
-/usr/bin/python3 "$here/trace.py" "$tool" "$root/assets/plate_1d.glb" "$folder"
+/usr/bin/python3 "$root/tests/unity/traces.py" "$tool" "$root/assets" "$folder"
 
 [ $# -gt 0 ] || set -- "$here"/test_*.gd
 status=0

@@ -1,9 +1,8 @@
 #!/usr/bin/env python3
-"""Paths over the demo assets, and the forces of `knurl run` on them, as doubles that C# reads without rounding:
-FOLDER/NAME.trace.bin (t, x, y, z a row; scene axes) and FOLDER/NAME.forces.bin (fx, fy, fz a tick), for meshes as they are
-and, in NAME.flat.forces.bin, without their normals: engines' own meshes are felt as triangles. Contact begins
-between two ticks, not on one: otherwise an amplitude's rounding to float would decide on which one, and cycles count
-from there.
+"""Paths over the demo assets, and the forces of `knurl run` on them, as doubles that C# and GDScript read without rounding:
+FOLDER/NAME.trace.bin (t, x, y, z a row; scene axes) and FOLDER/NAME.forces.bin (fx, fy, fz a tick); for walls without
+ridges FOLDER/NAME.wall.forces.bin. Contact begins between two ticks, not on one: otherwise an amplitude's rounding to
+float would decide on which one, and cycles count from there.
 
 usage: traces.py KNURL ASSETS FOLDER"""
 import array
@@ -78,6 +77,6 @@ for name, path in (("plate_1d", plate_1d), ("grid_2d", grid_2d), ("knurled_handl
         file.writelines(",".join(repr(value) for value in row) + "\n" for row in rows)
     save(f"{name}.trace", [value for row in rows for value in row])
     save(f"{name}.forces", forces_over(f"{assets}/{name}.glb", name))
-    with open(f"{assets}/{name}.glb", "rb") as model, open(f"{folder}/{name}.flat.glb", "wb") as flat:
-        flat.write(model.read().replace(b'"NORMAL"', b'"_PLAIN"'))
-    save(f"{name}.flat.forces", forces_over(f"{folder}/{name}.flat.glb", name))
+    with open(f"{assets}/{name}.glb", "rb") as model, open(f"{folder}/{name}.wall.glb", "wb") as wall:
+        wall.write(model.read().replace(b"0.0002", b"0.0000"))
+    save(f"{name}.wall.forces", forces_over(f"{folder}/{name}.wall.glb", name))

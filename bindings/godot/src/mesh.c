@@ -1,10 +1,11 @@
 /* Reads meshes. SPDX-License-Identifier: MIT */
 #include "mesh.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { ARRAY_VERTEX = 0, ARRAY_TANGENT = 2, ARRAY_TEX_UV = 4, ARRAY_INDEX = 12, ARRAY_MAX = 13 };
+enum { ARRAY_VERTEX = 0, ARRAY_NORMAL = 1, ARRAY_TANGENT = 2, ARRAY_TEX_UV = 4, ARRAY_INDEX = 12, ARRAY_MAX = 13 };
 enum { PRIMITIVE_TRIANGLES = 3 };
 
 /* A packed array from an Array of arrays; empty if it is of another type. */
@@ -45,6 +46,19 @@ static int grow(void *array, uint64_t count, size_t size) {
 static void transform(const double m[9], const float from[3], float to[3]) {
     for (int i = 0; i < 3; i++) {
         to[i] = (float)(m[3 * i] * (double)from[0] + m[3 * i + 1] * (double)from[1] + m[3 * i + 2] * (double)from[2]);
+    }
+}
+
+/* The matrix by which normals turn: the inverse's transpose, times a positive number. */
+static void normals_by(const double m[9], double out[9]) {
+    for (int i = 0; i < 9; i++) {
+        const int row = 3 * ((i / 3 + 1) % 3), last_row = 3 * ((i / 3 + 2) % 3);
+        const int column = (i % 3 + 1) % 3, last = (i % 3 + 2) % 3;
+        out[i] = m[row + column] * m[last_row + last] - m[row + last] * m[last_row + column];
+    }
+    const double side = m[0] * out[0] + m[1] * out[1] + m[2] * out[2] < 0.0 ? -1.0 : 1.0; /* < 0: a mirror */
+    for (int i = 0; i < 9; i++) {
+        out[i] *= side;
     }
 }
 
@@ -98,6 +112,28 @@ static void add_tangents(const void *arrays, uint32_t count, const double baked[
     end(&doubles);
 }
 
+static void add_normals(const void *arrays, uint32_t count, const double baked[9], mesh_data *data) {
+    packed normals =
+        take(arrays, ARRAY_NORMAL, GDEXTENSION_VARIANT_TYPE_PACKED_VECTOR3_ARRAY, gd_builtin.PACKED_VECTOR3_ARRAY_size);
+    float *to = data->normals + 3 * (size_t)data->vertex_count;
+    double turn[9];
+    data->has_normals = data->has_normals && normals.size == (int64_t)count;
+    normals_by(baked, turn);
+    const float *from = data->has_normals ? gd.packed_vector3_array_operator_index_const(normals.opaque, 0) : NULL;
+    for (size_t i = 0; from && i < 3 * (size_t)count; i += 3) {
+        const double n[3] = {(double)from[i], (double)from[i + 1], (double)from[i + 2]};
+        double turned[3];
+        for (int k = 0; k < 3; k++) {
+            turned[k] = turn[3 * k] * n[0] + turn[3 * k + 1] * n[1] + turn[3 * k + 2] * n[2];
+        }
+        const double length = sqrt(turned[0] * turned[0] + turned[1] * turned[1] + turned[2] * turned[2]);
+        for (size_t k = 0; k < 3; k++) {
+            to[i + k] = (float)(length > 0.0 ? turned[k] / length : 0.0);
+        }
+    }
+    end(&normals);
+}
+
 static void add_uvs(const void *arrays, uint32_t count, mesh_data *data) {
     packed uvs =
         take(arrays, ARRAY_TEX_UV, GDEXTENSION_VARIANT_TYPE_PACKED_VECTOR2_ARRAY, gd_builtin.PACKED_VECTOR2_ARRAY_size);
@@ -147,12 +183,13 @@ static int add_surface(const void *arrays, const mesh_place *place, mesh_data *d
     const uint64_t total = (uint64_t)data->vertex_count + count;
     int fits = 1;
     if (count > 0) {
-        fits = grow(&data->positions, total, 3 * sizeof(float)) && grow(&data->tangents, total, 4 * sizeof(float)) &&
-               grow(&data->uvs, total, 2 * sizeof(float)) &&
+        fits = grow(&data->positions, total, 3 * sizeof(float)) && grow(&data->normals, total, 3 * sizeof(float)) &&
+               grow(&data->tangents, total, 4 * sizeof(float)) && grow(&data->uvs, total, 2 * sizeof(float)) &&
                add_indices(arrays, count, determinant(place->matrix) < 0.0, data);
     }
     if (count > 0 && fits) {
         add_positions(gd.packed_vector3_array_operator_index_const(positions.opaque, 0), count, place, data);
+        add_normals(arrays, count, place->matrix, data);
         add_tangents(arrays, count, place->matrix, data);
         add_uvs(arrays, count, data);
         data->vertex_count = (uint32_t)total;
@@ -172,7 +209,7 @@ static int has_triangles(GDExtensionObjectPtr array_mesh, int64_t index) {
 
 void mesh_begin(mesh_data *data) {
     memset(data, 0, sizeof *data);
-    data->has_tangents = data->has_uvs = 1;
+    data->has_normals = data->has_tangents = data->has_uvs = 1;
 }
 
 /* Like a surface's arrays with positions only. */
@@ -185,8 +222,7 @@ int mesh_add_faces(const void *corners, const mesh_place *place, mesh_data *data
     if (count == 0) {
         return 1;
     }
-    if (!grow(&data->positions, total, 3 * sizeof(float)) || !grow(&data->tangents, total, 4 * sizeof(float)) ||
-        !grow(&data->uvs, total, 2 * sizeof(float)) ||
+    if (!grow(&data->positions, total, 3 * sizeof(float)) ||
         !grow(&data->indices, data->index_count + count, sizeof *data->indices)) {
         return 0;
     }
@@ -195,7 +231,7 @@ int mesh_add_faces(const void *corners, const mesh_place *place, mesh_data *data
         data->indices[data->index_count++] = data->vertex_count + (uint32_t)turned(i, is_mirrored);
     }
     data->vertex_count = (uint32_t)total;
-    data->has_tangents = data->has_uvs = 0;
+    data->has_normals = data->has_tangents = data->has_uvs = 0;
     return 1;
 }
 
@@ -219,6 +255,7 @@ int mesh_add(GDExtensionObjectPtr mesh, const mesh_place *place, mesh_data *data
 
 void mesh_end(mesh_data *data) {
     free(data->positions);
+    free(data->normals);
     free(data->tangents);
     free(data->uvs);
     free(data->indices);
@@ -229,6 +266,7 @@ void mesh_describe(const mesh_data *data, knurl_mesh_desc *desc) {
     knurl_mesh_desc_init(desc, sizeof *desc);
     desc->vertex_count = data->vertex_count;
     desc->positions = data->positions;
+    desc->normals = data->has_normals ? data->normals : NULL;
     desc->tangents = data->has_tangents ? data->tangents : NULL;
     desc->uvs = data->has_uvs ? data->uvs : NULL;
     desc->indices = data->indices;

@@ -8,12 +8,13 @@
 
 typedef struct mesh_data {
     float *positions; /* 3 a vertex */
+    float *normals;   /* 3 a vertex */
     float *tangents;  /* 4 a vertex */
     float *uvs;       /* 2 a vertex */
     uint32_t *indices;
     uint32_t vertex_count;
     uint64_t index_count;
-    int has_tangents, has_uvs; /* 1: every surface of the mesh has them */
+    int has_normals, has_tangents, has_uvs; /* 1: every surface of the mesh has them */
 } mesh_data;
 
 /* A mesh's pose in the data that it is read into: matrix * position + offset. */

@@ -28,6 +28,7 @@ static uint64_t key_of(const surface *s, const knurl_session_pose *at) {
     key = hash(key, &s->layers, sizeof s->layers);
     key = hash(key, &s->double_sided, sizeof s->double_sided);
     key = hash(key, &s->box_coordinates, sizeof s->box_coordinates);
+    key = hash(key, &s->smooth, sizeof s->smooth);
     key = hash(key, &s->meshes_seen, sizeof s->meshes_seen);
     for (const device *d = placed_devices; d; d = d->next_placed) {
         memset(&place, 0, sizeof place);

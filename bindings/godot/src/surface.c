@@ -208,6 +208,8 @@ static const gd_property properties[] = {
      .type = GDEXTENSION_VARIANT_TYPE_BOOL,
      .offset = offsetof(surface, box_coordinates),
      .changed = make_anew},
+    {"smooth", GDEXTENSION_VARIANT_TYPE_INT, offsetof(surface, smooth), 0.0, 2.0, 1.0, "Auto,Off,On", GD_HINT_ENUM,
+     NULL, NULL, make_anew},
     {.name = "enabled",
      .type = GDEXTENSION_VARIANT_TYPE_BOOL,
      .offset = offsetof(surface, enabled),
@@ -232,6 +234,12 @@ static const gd_signal_row signals[] = {
      {{"device", GDEXTENSION_VARIANT_TYPE_OBJECT, "KnurlDevice"}, {"count", GDEXTENSION_VARIANT_TYPE_INT, NULL}}},
 };
 
+static const gd_constant_row constants[] = {
+    {"Smooth", "SMOOTH_AUTO", KNURL_SMOOTH_AUTO},
+    {"Smooth", "SMOOTH_OFF", KNURL_SMOOTH_OFF},
+    {"Smooth", "SMOOTH_ON", KNURL_SMOOTH_ON},
+};
+
 const gd_class surface_class = {
     .name = "KnurlSurface",
     .base = "Node3D",
@@ -244,6 +252,8 @@ const gd_class surface_class = {
     .property_count = sizeof properties / sizeof *properties,
     .methods = methods,
     .method_count = sizeof methods / sizeof *methods,
+    .constants = constants,
+    .constant_count = sizeof constants / sizeof *constants,
     .signals = signals,
     .signal_count = sizeof signals / sizeof *signals,
 };

@@ -54,6 +54,7 @@ knurl_result surface_put(surface *s, knurl_scene *scene, const knurl_session_pos
     desc.material = &material;
     desc.double_sided = s->double_sided;
     desc.coordinates = s->box_coordinates ? KNURL_COORDINATES_BOX : KNURL_COORDINATES_AUTO;
+    desc.smooth = (int32_t)s->smooth;
     memcpy(desc.position, at->position, sizeof desc.position);
     memcpy(desc.rotation, at->quaternion, sizeof desc.rotation);
     for (int i = 0; i < 3; i++) { /* the axis is in the mesh's axes: scaled like the mesh */

@@ -25,6 +25,7 @@ typedef struct surface {
     gd_variant held; /* keeps the grating's reference */
     grating *grating;
     uint8_t double_sided, box_coordinates, enabled, reaction;
+    int64_t smooth; /* KNURL_SMOOTH_ */
     int64_t layers; /* felt by devices that have one of them */
     float axis[3];
     struct surface *next_marked, **marked_at; /* the link that leads here; or null: not marked */

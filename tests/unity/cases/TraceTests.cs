@@ -78,15 +78,18 @@ namespace Knurl.Tests
         {
             Dictionary<string, object> attributes = Glb.Object(primitive["attributes"]);
             float[] positions = file.Floats(Convert.ToInt32(attributes["POSITION"]), 3);
+            float[] normals = file.Floats(Convert.ToInt32(attributes["NORMAL"]), 3);
             float[] uvs = file.Floats(Convert.ToInt32(attributes["TEXCOORD_0"]), 2);
             int[] indices = file.Indices(Convert.ToInt32(primitive["indices"]));
             int count = positions.Length / 3;
             var points = new Vector3[count];
+            var directions = new Vector3[count];
             var coordinates = new Vector2[count];
             int[] order = Shuffled(count, 1);
             for (int i = 0; i < count; i++)
             {
                 points[order[i]] = new Vector3(-positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]);
+                directions[order[i]] = new Vector3(-normals[3 * i], normals[3 * i + 1], normals[3 * i + 2]);
                 coordinates[order[i]] = new Vector2(uvs[2 * i], 1f - uvs[2 * i + 1]);
             }
             int[] sequence = Shuffled(indices.Length / 3, 2);
@@ -99,6 +102,7 @@ namespace Knurl.Tests
             }
             Mesh mesh = Made(new Mesh());
             mesh.vertices = points;
+            mesh.normals = directions;
             mesh.uv = coordinates;
             mesh.triangles = triangles;
             return mesh;
@@ -122,7 +126,7 @@ namespace Knurl.Tests
         [TestCase("knurled_handle", 1)]
         public void ThroughUnitysMeshesForcesAreWithinATenthOfAMillinewton(string asset, int surfaces)
         {
-            double[] expected = Expected(asset + ".flat");
+            double[] expected = Expected(asset);
             var file = new Glb(Repository.Asset(asset + ".glb"));
             int count = 0;
             foreach (Glb.Tagged tagged in file.Surfaces())

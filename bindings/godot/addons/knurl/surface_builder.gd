@@ -168,15 +168,18 @@ func _add_surface(parent: Node3D, tag: Tags.Tag, double_sided: bool) -> void:
 	surface.grating = _grating_of(tag)
 	surface.double_sided = double_sided
 	surface.axis = tag.values.get("axis", Vector3.ZERO)
+	if tag.values.has("smooth"):
+		surface.smooth = (
+			KnurlSurface.SMOOTH_ON if tag.values["smooth"] else KnurlSurface.SMOOTH_OFF
+		)
 	surface.box_coordinates = tag.values.get("coordinates", "auto") == "box"
 	_add_child(parent, surface)
 
 
 func _grating_of(tag: Tags.Tag) -> KnurlGrating:
 	var values: Dictionary = tag.values.duplicate()
-	values.erase("axis")  # set on the surface, like the coordinates
-	values.erase("coordinates")
-	values.erase("smooth")  # a node's mesh is felt as its triangles
+	for key: String in ["axis", "coordinates", "smooth"]:  # set on the surface
+		values.erase(key)
 	if not _gratings.has(values):
 		var grating := KnurlGrating.new()
 		for key: String in values:

@@ -18,6 +18,8 @@ namespace Knurl.Editing
             "(0, 0, 0): the mesh's UVs, else its tangents, else box coordinates");
         static readonly GUIContent Box = new GUIContent("Box Coordinates", "Whether ridges are laid out by positions " +
             "in the mesh's axes, instead of by UVs");
+        static readonly GUIContent Smooth = new GUIContent("Smooth", "Auto: as smooth as it looks, by the mesh's normals. " +
+            "Off: as its triangles. On: smooth, with computed normals if the mesh has none");
 
         static readonly GUIContent Reaction = new GUIContent("Reaction", "Whether the nearest Rigidbody at or above it is " +
             "pushed by the opposite of what the hand feels");
@@ -39,6 +41,7 @@ namespace Knurl.Editing
             Draw("doubleSided", DoubleSided);
             Draw("axis", Axis);
             Draw("boxCoordinates", Box);
+            Draw("smooth", Smooth);
             Draw("reaction", Reaction);
             Draw("layers", Layers);
             if (EditorGUI.EndChangeCheck())

@@ -169,6 +169,7 @@ namespace Knurl.Editing
             Undo.RecordObject(surface, "Add Knurl Surfaces");
             surface.Grating = grating;
             surface.DoubleSided = tag.DoubleSided;
+            surface.Smooth = tag.Smooth;
             if (tag.Axis != Vector3.zero) // otherwise it keeps its own
             {
                 surface.Axis = Axes.ToMesh(tag.Axis, owner.transform.localToWorldMatrix);

@@ -71,17 +71,19 @@ namespace Knurl
             desc.mesh = &mesh;
             desc.material = &material;
             desc.double_sided = surface.DoubleSided ? 1u : 0u;
+            desc.smooth = (int)surface.Smooth;
             desc.coordinates = surface.BoxCoordinates ? NativeMethods.KNURL_COORDINATES_BOX : 0;
             Copy(pose->position, desc.position, 3);
             Copy(pose->quaternion, desc.rotation, 4);
             Axes.ToScene(surface.Axis, axis);
             Axes.Multiply(pose->rest, axis, desc.axis); // the axis is in the mesh's axes: scaled like the mesh
             fixed (byte* name = Utf8.Bytes(surface.name.Replace('\0', ' '), "name"))
-            fixed (float* positions = data.Positions, tangents = data.Tangents, uvs = data.Uvs)
+            fixed (float* positions = data.Positions, normals = data.Normals, tangents = data.Tangents, uvs = data.Uvs)
             fixed (uint* indices = data.Indices)
             {
                 desc.name = name;
                 mesh.positions = positions;
+                mesh.normals = normals;
                 mesh.tangents = tangents;
                 mesh.uvs = uvs;
                 mesh.indices = indices;

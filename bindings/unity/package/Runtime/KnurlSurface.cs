@@ -30,6 +30,10 @@ namespace Knurl
             + "along the axis that its normal is closest to, instead of by UVs. The axis has to be (0, 0, 0).")]
         bool boxCoordinates;
 
+        [SerializeField, Tooltip("Auto: felt as smooth as it looks, by the mesh's normals. Off: as its triangles. On: smooth, "
+            + "with computed normals if the mesh has none.")]
+        SurfaceSmoothness smooth;
+
         [SerializeField, Tooltip("Whether the nearest Rigidbody at or above it is pushed by the opposite of what the hand "
             + "feels.")]
         bool reaction;
@@ -51,6 +55,7 @@ namespace Knurl
         [NonSerialized] KnurlGrating latestGrating;
         [NonSerialized] Vector3 latestAxis;
         [NonSerialized] bool latestDoubleSided, latestBoxCoordinates;
+        [NonSerialized] SurfaceSmoothness latestSmooth;
 
         /// <summary>Texture and wall of the surface; null: it cannot be felt.</summary>
         public KnurlGrating Grating
@@ -87,6 +92,14 @@ namespace Knurl
         {
             get { return boxCoordinates; }
             set { boxCoordinates = value; Made++; Remember(); }
+        }
+
+        /// <summary>Whether the mesh is felt as a smooth surface or as its triangles. Default <see
+        /// cref="SurfaceSmoothness.Auto"/>.</summary>
+        public SurfaceSmoothness Smooth
+        {
+            get { return smooth; }
+            set { smooth = value; Made++; Remember(); }
         }
 
         /// <summary>True: the nearest Rigidbody at or above it gets the opposite of the hand's force. It receives the
@@ -238,6 +251,7 @@ namespace Knurl
             latestAxis = axis;
             latestDoubleSided = doubleSided;
             latestBoxCoordinates = boxCoordinates;
+            latestSmooth = smooth;
         }
 
         /// <summary>An animation writes the fields directly, in each frame: compare them, because a change reads the
@@ -245,7 +259,7 @@ namespace Knurl
         void OnDidApplyAnimationProperties()
         {
             bool isMadeAnew = latestDoubleSided != doubleSided || !Axes.IsSame(latestAxis, axis)
-                || latestBoxCoordinates != boxCoordinates || (latestGrating == null) != (grating == null);
+                || latestBoxCoordinates != boxCoordinates || latestSmooth != smooth || (latestGrating == null) != (grating == null);
             Made += isMadeAnew ? 1 : 0;
             Felt += ReferenceEquals(latestGrating, grating) ? 0 : 1;
             Remember();

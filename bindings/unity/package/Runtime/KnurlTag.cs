@@ -20,6 +20,7 @@ namespace Knurl
             Method = (GratingMethod)material->method;
             DoubleSided = info->double_sided != 0;
             Axis = Axes.ToUnity(info->axis);
+            Smooth = (SurfaceSmoothness)info->smooth;
             BoxCoordinates = Utf8.Read(info->coordinates) == "box";
         }
 
@@ -57,6 +58,9 @@ namespace Knurl
         /// <summary>True: ridges follow positions, by the tag or because the mesh has neither UVs nor
         /// tangents.</summary>
         public bool BoxCoordinates { get; }
+
+        /// <summary>See <see cref="KnurlSurface.Smooth"/>.</summary>
+        public SurfaceSmoothness Smooth { get; }
 
         /// <summary>Copies all values to a grating.</summary>
         public void CopyTo(KnurlGrating grating)

@@ -9,6 +9,7 @@ namespace Knurl
     internal sealed class MeshData
     {
         internal float[] Positions; // x, y, z a vertex
+        internal float[] Normals;   // x, y, z a vertex, or null
         internal float[] Tangents;  // x, y, z, w per vertex, or null: only if there are no UVs
         internal float[] Uvs;       // u, v per vertex, or null
         internal uint[] Indices;    // three per triangle, counter-clockwise from outside
@@ -43,6 +44,7 @@ namespace Knurl
         {
             var data = new MeshData();
             data.Positions = ReadPositions(mesh, rest);
+            data.Normals = ReadNormals(mesh, rest);
             data.Indices = ReadIndices(mesh, Axes.Determinant(rest) < 0.0);
             data.Uvs = ReadUvs(mesh);
             if (!HaveArea(data.Uvs, data.Indices))
@@ -79,6 +81,36 @@ namespace Knurl
             for (int i = 0; i < from.Count; i++)
             {
                 Turn(rest, from[i].x, from[i].y, from[i].z, to, 3 * i);
+            }
+            return to;
+        }
+
+        /// <summary>Normals turn by the inverse's transpose; only their directions matter.</summary>
+        static float[] ReadNormals(Mesh mesh, double* rest)
+        {
+            var from = new List<Vector3>();
+            mesh.GetNormals(from);
+            double* turn = stackalloc double[9];
+            double side = Axes.Determinant(rest) < 0.0 ? -1.0 : 1.0;
+            for (int i = 0; i < 9; i++)
+            {
+                int row = 3 * ((i / 3 + 1) % 3), lastRow = 3 * ((i / 3 + 2) % 3), column = (i + 1) % 3, last = (i + 2) % 3;
+                turn[i] = side * (rest[row + column] * rest[lastRow + last] - rest[row + last] * rest[lastRow + column]);
+            }
+            double* n = stackalloc double[3];
+            var to = from.Count > 0 && from.Count == mesh.vertexCount ? new float[3 * from.Count] : null;
+            for (int i = 0; to != null && i < to.Length; i += 3)
+            {
+                Vector3 given = from[i / 3];
+                for (int k = 0; k < 3; k++)
+                {
+                    n[k] = turn[3 * k + 1] * given.y + turn[3 * k + 2] * given.z - turn[3 * k] * given.x;
+                }
+                double length = Math.Sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+                for (int k = 0; k < 3; k++)
+                {
+                    to[i + k] = length > 0.0 ? (float)(n[k] / length) : 0f;
+                }
             }
             return to;
         }

@@ -66,6 +66,8 @@ func right() -> Dictionary:
 			{}
 		),
 		"smooth": model(RIGHT.merged({"knurl_spatial_frequency": [0, 0]}, true), {}, {}),
+		"felt_flat": model(RIGHT.merged({"knurl_smooth": false}), {}, {}),
+		"felt_smooth": model(RIGHT.merged({"knurl_smooth": 1}), {}, {}),
 		"no_coordinates": model(RIGHT, {}, {}, {"attributes": {"POSITION": 0}}),
 		"two_nodes":
 		with_node(
@@ -134,6 +136,7 @@ func compare(name: String, file: Dictionary, inspected: Dictionary) -> void:
 		var frequency: Array = expected["material"]["spatial_frequency"]
 		checks.equal(grating.spatial_frequency, Vector2(frequency[0], frequency[1]), at)
 		checks.equal(METHODS[grating.method], expected["material"]["method"], at + ": method")
+		checks.equal(["auto", "off", "on"][found["surface"].smooth], expected["smooth"], at + ": smooth")
 		for key: String in GRATING:
 			checks.close(grating.get(key), expected["material"][key], 1e-9, "%s: %s" % [at, key])
 		checks.equal(found["triangles"], int(expected["triangles"]), at + ": triangles")

@@ -24,7 +24,7 @@ namespace Knurl.Tests
                 Assert.IsNotNull(serialized.FindProperty(field), field);
             }
             var surface = Make<KnurlSurface>();
-            foreach (string field in new[] { "grating", "doubleSided", "axis", "boxCoordinates" })
+            foreach (string field in new[] { "grating", "doubleSided", "axis", "boxCoordinates", "smooth" })
             {
                 Assert.IsNotNull(new SerializedObject(surface).FindProperty(field), field);
             }

@@ -168,7 +168,7 @@ namespace Knurl.Tests
             Assert.AreEqual((uint)sizeof(knurl_session_desc), desc.struct_size);
             Assert.AreEqual(1u, desc.reconnect);
             Assert.AreEqual(1u, desc.clamp);
-            Assert.AreEqual(0u, desc.reserved);
+            Assert.AreEqual(0u, desc.even);
             Assert.AreEqual("fake", Utf8.Read(desc.device));
             Assert.AreEqual("", Utf8.Read(desc.stroke));
             Assert.AreEqual(1000.0, desc.update_rate_hz);
