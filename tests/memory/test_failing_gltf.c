@@ -93,6 +93,42 @@ static knurl_result load_wrong_tag(void) {
                        "{\"version\":1,\"axis\":[1,2,\"z\"],\"amplitude\":{\"a\":[]}}}}]}");
 }
 
+static uint64_t written; /* bytes of the last file */
+
+static void reset_written(void) {
+    written = 0;
+}
+
+static void keep_size(void *user, const void *data, uint64_t size) {
+    (void)user, (void)data;
+    written = size;
+}
+
+static void ignore_tag(void *user, const char *array, uint32_t index, const char *object, const char *tag) {
+    (void)user, (void)array, (void)index, (void)object, (void)tag;
+}
+
+static void written_state(char *text, size_t size) {
+    (void)snprintf(text, size, "%llu bytes", (unsigned long long)written);
+}
+
+static knurl_result set_tag(void) {
+    return knurl_gltf_set_tag(many_ways, strlen(many_ways), "memory.gltf", "materials", 0, "{\"friction\":1}",
+                              keep_size, NULL);
+}
+
+static knurl_result list_tags(void) {
+    return knurl_gltf_list_tags(many_ways, strlen(many_ways), "memory.gltf", ignore_tag, NULL);
+}
+
+TEST(a_tag_is_written_whole_or_not_wherever_memory_runs_out) {
+    const failing_call calls[] = {
+        {"knurl_gltf_set_tag()", reset_written, set_tag, reset_written, written_state, 0, 0},
+        {"knurl_gltf_list_tags()", reset_written, list_tags, reset_written, written_state, 0, 0},
+    };
+    failing_run(calls, COUNT_OF(calls));
+}
+
 TEST(a_load_gives_an_error_wherever_memory_runs_out) {
     const failing_call calls[] = {
         {"knurl_gltf_load_file(grid_2d.glb)", make_scene, load_grid, free_scene, scene_state, 0, 0},
