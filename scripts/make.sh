@@ -45,7 +45,7 @@ figures() {
     picture sweep plot.py build/study/sweep.csv
     title=
     picture sound sound.py build/study/sweep.{csv,wav}
-    for name in signals coverage temporal device gratings preferences tradeoff velocity transitions smooth stability failures; do
+    for name in signals coverage temporal device gratings preferences tradeoff velocity transitions smooth even stability failures; do
         echo "run: study $name"
         build/release/knurl study "$name" --out build/study
         picture "$name" figures.py "build/study/$name".{json,csv}
@@ -59,7 +59,7 @@ figures() {
         echo 'run: the pictures show what the code does'
         return 0
     fi
-    /usr/bin/python3 samples/study/dark.py "$out"/{sweep,stability,speed_accuracy,smooth}.png # for README.md, docs/
+    /usr/bin/python3 samples/study/dark.py "$out"/{sweep,stability,speed_accuracy,smooth,even}.png # for README.md, docs/
     [ "$how" != --update ] || cp build/study/failures.md samples/study/failures.md
     echo "run: the numbers are in build/study, the pictures and what they were drawn from in $out"
 }

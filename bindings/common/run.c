@@ -78,6 +78,7 @@ static knurl_result set_gains(const knurl_session *session, const knurl_session_
     if (!result && is_on) {
         result = desc->response ? knurl_gains_from_response(desc->response, desc->response_size, gains)
                                 : knurl_gains_from_plant(info.mass, info.viscous, desc->update_rate_hz, gains);
+        result = result ? knurl_fail(result, "response: %s", knurl_error_message()) : KNURL_OK;
     }
     return result ? result : knurl_scene_set_gains(session->scene, 0, gains, is_on ? KNURL_GAINS : 0);
 }

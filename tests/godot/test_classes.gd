@@ -21,7 +21,7 @@ func defaults() -> void:
 	check("nothing is felt yet", s.get_triangle_count() == 0 and not s.is_touched())
 	var d: Node3D = ClassDB.instantiate(&"KnurlDevice")
 	check("device", d.device == "fake" and d.stroke == "" and d.rate == 1000.0 and d.workspace_scale == 1.0)
-	check("device's switches", d.autostart and d.reconnect and d.clamp)
+	check("device's switches", d.autostart and d.reconnect and d.clamp and not d.even_sensation and d.response_file == "")
 	check("device at rest", not d.running and not d.in_contact and d.force == Vector3.ZERO and d.ticks == 0)
 	check("device's name at rest", d.device_name == "")
 	check("status at rest", d.get_status() == {"running": false})

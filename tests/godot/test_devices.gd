@@ -41,6 +41,38 @@ func starts_by_itself() -> void:
 	clear()
 
 
+# At 100 ridges a second, the stroke's, the model leaves 0.37 of the amplitude; less at its ends.
+func even_sensation() -> void:
+	var d := make_device("fake", "line")
+	make_surface(plate())
+	d.even_sensation = true
+	check("starts by the model", d.start() == OK)
+	check("feels", await until(func() -> bool: return d.ticks > 800 and d.in_contact))
+	var greatest := 0.0
+	var history: PackedFloat32Array = d.get_history(8192)
+	for i in history.size() / 2:
+		greatest = maxf(greatest, absf(history[2 * i]))
+	check("lower ridges", greatest > 0.00005 and greatest < 0.0002 * 1.28 * 0.4, greatest)
+	d.stop()
+	d.response_file = "user://response.csv"
+	var file := FileAccess.open(d.response_file, FileAccess.WRITE)
+	file.store_string("# knurl response 1\nfrequency_hz,gain\n20,1\n400,1\n")
+	file.close()
+	check("starts by a response", d.start() == OK)
+	d.stop()
+	file = FileAccess.open(d.response_file, FileAccess.WRITE)
+	file.store_string("# knurl response 1\nfrequency_hz,gain\n20,1\n400,-1\n")
+	file.close()
+	expect_error("response: line 4: expected a gain above 0")
+	check("a response that is wrong", d.start() == ERR_FILE_CORRUPT)
+	d.response_file = "res://nothing.csv"
+	expect_error("expected a file that can be read, found 'res://nothing.csv'")
+	check("a response that is not there", d.start() == ERR_FILE_CANT_READ and not d.running)
+	d.even_sensation = false
+	check("off", d.start() == OK)
+	clear()
+
+
 func refuses() -> void:
 	var d := make_device("nonsense")
 	expect_error("found 'nonsense'")
@@ -271,6 +303,7 @@ func handlers_that_free_surfaces() -> void:
 func tests() -> void:
 	await runs_and_stops()
 	await starts_by_itself()
+	await even_sensation()
 	await refuses()
 	await tells()
 	await ends_with_the_finger()

@@ -43,6 +43,31 @@ class Module(unittest.TestCase):
         np.testing.assert_array_equal(latest["force"], ticks["force"][-1])
         self.assertEqual(counts["ticks"], 1000)
 
+    def test_even_sensation_lowers_every_height_by_its_gain(self):
+        along = np.arange(200) * 0.0002 # 200 ridges a second: a gain of 0.40, as samples/study/README.md has it
+        heights = {}
+        for even in ("off", "model", "response"):
+            scene = knurl.Scene()
+            scene.add_plane(material=knurl.Material(spatial_frequency=(1000.0, 0.0), amplitude=0.0002, stiffness=500.0))
+            scene.configure_hip(**STRAIGHT)
+            if even == "response": # felt equally strongly at all frequencies but for the harmonics
+                with tempfile.TemporaryDirectory() as folder:
+                    path = os.path.join(folder, "response.csv")
+                    with open(path, "w", encoding="utf-8") as file:
+                        file.write("# knurl response 1\nfrequency_hz,gain\n20,39.0625\n40,39.0625\n250,1\n310,1.5376\n")
+                    scene.set_even(path)
+            else:
+                scene.set_even(on=even == "model")
+            scene.commit()
+            positions = np.column_stack([along, np.zeros(200), np.full(200, -0.002)])
+            heights[even] = scene.tick(positions, np.broadcast_to([0.2, 0.0, 0.0], (200, 3)))["height"][50:]
+        np.testing.assert_allclose(heights["model"], 0.402 * heights["off"], atol=2e-3 * 0.0002)
+        np.testing.assert_allclose(heights["response"], heights["off"], atol=1e-2 * 0.0002)
+        with self.assertRaisesRegex(knurl.KnurlError, "mass is not known"):
+            scene.set_even(mass=0.0)
+        with self.assertRaises(FileNotFoundError):
+            scene.set_even("nothing.csv")
+
     def test_a_mesh_of_arrays_is_felt_as_the_plane_is(self):
         corners = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]]) * 0.05
         scene = knurl.Scene()

@@ -82,7 +82,8 @@
     X(Engine, get_physics_frames, 3905245786)                                                                          \
     X(Engine, get_physics_ticks_per_second, 3905245786)                                                                \
     X(Engine, get_time_scale, 191475506)                                                                               \
-    X(ProjectSettings, globalize_path, 3135753539)
+    X(ProjectSettings, globalize_path, 3135753539)                                                                     \
+    X(FileAccess, get_file_as_string, 1703090593)
 
 /* Methods of built-in types. */
 #define GD_BUILTINS(X)                                                                                                 \

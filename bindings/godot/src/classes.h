@@ -93,6 +93,7 @@ enum {
     GD_HINT_ENUM = 2,
     GD_HINT_SUGGESTIONS = 3, /* of texts */
     GD_HINT_FLAGS = 6,
+    GD_HINT_FILE = 13,
     GD_HINT_RESOURCE_TYPE = 17
 };
 

@@ -8,6 +8,7 @@
 #include "surface_node.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static int64_t error_of(knurl_result result) {
@@ -79,8 +80,25 @@ knurl_result device_make_session(device *d) {
     return d->session ? KNURL_OK : knurl_session_create(&d->session);
 }
 
+/* The contents of a file of the project, or outside; to be freed. Null: it cannot be read. */
+static char *read_file(const char *path) {
+    gd_string name, contents;
+    gd.string_new_with_utf8_chars(&name, path);
+    gd.string_new_with_utf8_chars(&contents, "");
+    gd_call(gd_method.FileAccess_get_file_as_string, NULL, &name, &contents);
+    char *text = gd_string_copy(&contents);
+    gd_types[GDEXTENSION_VARIANT_TYPE_STRING].end(&contents);
+    gd_types[GDEXTENSION_VARIANT_TYPE_STRING].end(&name);
+    if (text && text[0] == '\0') {
+        free(text);
+        text = NULL;
+    }
+    return text;
+}
+
 static knurl_result open_session(device *d) {
     knurl_session_desc desc;
+    char *response = NULL;
     knurl_session_desc_init(&desc, sizeof desc);
     desc.device = d->uri ? d->uri : "";
     desc.stroke = d->stroke;
@@ -88,7 +106,19 @@ static knurl_result open_session(device *d) {
     desc.reconnect = d->reconnect;
     desc.clamp = d->clamp;
     desc.workspace = d->workspace;
-    return knurl_session_open(d->session, &desc);
+    desc.even = d->even;
+    if (d->even && d->response && d->response[0]) {
+        response = read_file(d->response);
+        if (!response) {
+            return knurl_fail(KNURL_ERROR_IO, "response_file: expected a file that can be read, found '%s'",
+                              d->response);
+        }
+        desc.response = response;
+        desc.response_size = strlen(response);
+    }
+    const knurl_result result = knurl_session_open(d->session, &desc);
+    free(response);
+    return result;
 }
 
 void device_put_surfaces(device *d) {

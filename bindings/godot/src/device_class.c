@@ -26,12 +26,13 @@ static int init(void *self) {
     device *d = self;
     d->uri = copy("fake");
     d->stroke = copy("");
+    d->response = copy("");
     d->rate = 1000.0;
     d->workspace_scale = d->gain = 1.0;
     d->layers = 1;
     d->autostart = d->reconnect = d->clamp = 1;
     d->slot = -1;
-    return d->uri && d->stroke;
+    return d->uri && d->stroke && d->response;
 }
 
 static void finish(void *self) {
@@ -40,6 +41,7 @@ static void finish(void *self) {
     knurl_session_destroy(d->session);
     free(d->uri);
     free(d->stroke);
+    free(d->response);
 }
 
 static void set_processing(device *d, uint8_t on) {
@@ -399,6 +401,12 @@ static const gd_property properties[] = {
     {"gain", FLOAT, offsetof(device, gain), 0.0, 1.0, 0.01, NULL, 0, NULL, NULL, change_gain},
     {.name = "added_force", .type = VECTOR3, .offset = offsetof(device, added_force), .changed = change_force},
     {.name = "clamp", .type = BOOL, .offset = offsetof(device, clamp)},
+    {.name = "even_sensation", .type = BOOL, .offset = offsetof(device, even)},
+    {.name = "response_file",
+     .type = STRING,
+     .offset = offsetof(device, response),
+     .hint = GD_HINT_FILE,
+     .hints = "*.csv"},
     {.name = "paused", .type = BOOL, .offset = offsetof(device, paused), .changed = pause},
     {.name = "Connection"},
     {"rate", FLOAT, offsetof(device, rate), 100.0, 10000.0, 1.0, "suffix:Hz", 0, NULL, NULL, explain_anew},

@@ -49,14 +49,14 @@ typedef struct surface {
 typedef struct device {
     gd_instance base;
     struct device *next_placed; /* of those in a tree */
-    char *uri, *stroke;
+    char *uri, *stroke, *response;
     double rate, workspace_scale, gain;
     int64_t layers;
     float added_force[3]; /* N */
     uint8_t clutch, sound;
     uint8_t moved,
         by_physics; /* moved: 1: its node or scale changed since the last frame; by_physics: 1: by a physics step */
-    uint8_t autostart, reconnect, clamp;
+    uint8_t autostart, reconnect, clamp, even;
     uint8_t wants_start; /* at the next frame */
     double retry;        /* s between attempts of a failed automatic start; 0: no further attempts */
     double retries_in;   /* s */

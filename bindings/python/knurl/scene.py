@@ -262,6 +262,20 @@ class Scene(Owner):
             check(lib.knurl_scene_configure_hip(self.handle, hip, desc))
             own.rate = desc.update_rate_hz if desc.update_rate_hz > 0.0 else 1000.0 # KNURL_DEFAULT
 
+    def set_even(self, response: Union[None, str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"] = None, *,
+                 mass: float = 0.045, viscous: float = 0.5, rate: float = 1000.0, on: bool = True, hip: int = 0) -> None:
+        """Even sensation: ridges equally strong from 25 to 300 Hz, by the response file `response`, else by a model of a
+        device in a hand: mass, kg, and viscous friction, N s/m (Device.info), and the update rate, Hz. on=False: off. Not while a
+        loop has the HIP."""
+        gains = ffi.new("knurl_gain[]", lib.KNURL_GAINS)
+        if on and response is not None:
+            with open(response, "rb") as file:
+                text = file.read(65537) # one byte more than the library takes
+            check(lib.knurl_gains_from_response(text, len(text), gains))
+        elif on:
+            check(lib.knurl_gains_from_plant(mass, viscous, rate, gains))
+        check(lib.knurl_scene_set_gains(self.handle, hip, gains, lib.KNURL_GAINS if on else 0))
+
     def commit(self) -> None:
         """Makes the scene ready to tick. Call it once, after the first surfaces."""
         check(lib.knurl_scene_commit(self.handle))

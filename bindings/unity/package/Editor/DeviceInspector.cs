@@ -32,6 +32,10 @@ namespace Knurl.Editing
             "looked for again; otherwise losing it stops this component");
         static readonly GUIContent Clamp = new GUIContent("Clamp", "Whether walls and textures beyond what the " +
             "device can do are felt at what it can");
+        static readonly GUIContent Even = new GUIContent("Even Sensation", "Lowers the amplitude of gratings at some speeds, " +
+            "so that ridges are equally strong from 25 to 300 per second");
+        static readonly GUIContent ResponseFile = new GUIContent("Response File", "The device's measured response for Even " +
+            "Sensation, a CSV file that knurl sweep writes; none: a model of the device in a hand");
         static readonly GUIContent Paused = new GUIContent("Paused", "Nothing is felt, and where it is goes on being " +
             "told. Counts at once");
 
@@ -69,6 +73,8 @@ namespace Knurl.Editing
             Draw("retry", Retry);
             Draw("reconnect", Reconnect);
             Draw("clamp", Clamp);
+            Draw("evenSensation", Even);
+            Draw("responseFile", ResponseFile);
             Draw("paused", Paused);
             Draw("gain", Gain);
             Draw("addedForce", AddedForce);

@@ -152,8 +152,16 @@ namespace Knurl
             latestPosition = transform.position;
             latestRotation = transform.rotation;
             Axes.ToWorkspace(transform.position, transform.rotation, workspaceScale, &desc.workspace);
-            fixed (byte* uri = Utf8.Bytes(device, "device"), hand = Utf8.Bytes(stroke, "stroke"))
+            desc.even = evenSensation ? 1u : 0u;
+            byte[] measured = evenSensation && responseFile != null ? responseFile.bytes : null;
+            if (measured != null && measured.Length == 0)
             {
+                throw new KnurlException(NativeMethods.KNURL_ERROR_FORMAT, "response: expected text, found an empty file");
+            }
+            fixed (byte* uri = Utf8.Bytes(device, "device"), hand = Utf8.Bytes(stroke, "stroke"), file = measured)
+            {
+                desc.response = file;
+                desc.response_size = measured != null ? (ulong)measured.Length : 0ul;
                 desc.device = uri;
                 desc.stroke = hand;
                 KnurlException.Check(NativeMethods.knurl_session_open(session, &desc));

@@ -45,6 +45,14 @@ namespace Knurl
         [SerializeField, Tooltip("Whether walls and textures beyond what the device can do are felt at what it can.")]
         bool clamp = true;
 
+        [SerializeField, Tooltip("Lowers the amplitude of gratings at some speeds, so that ridges are equally strong from 25 to "
+            + "300 per second. Counts from the next start on.")]
+        bool evenSensation;
+
+        [SerializeField, Tooltip("The device's measured response for Even Sensation, a CSV file that knurl sweep writes. None: "
+            + "a model of the device in a hand.")]
+        TextAsset responseFile;
+
         [SerializeField, Tooltip("A pause of this device: nothing is felt, and where it is goes on being told. Counts at "
             + "once.")]
         bool paused;
@@ -152,6 +160,23 @@ namespace Knurl
         {
             get { return clamp; }
             set { clamp = value; }
+        }
+
+        /// <summary>Whether the amplitude of gratings is lowered at some speeds, so that ridges are equally strong from 25 to
+        /// 300 per second: by <see cref="ResponseFile"/> or, without one, by the device's mass and friction in a model of a hand.
+        /// Has no effect with a mouse. Counts from the next start on. Default false.</summary>
+        public bool EvenSensation
+        {
+            get { return evenSensation; }
+            set { evenSensation = value; }
+        }
+
+        /// <summary>The device's measured response for <see cref="EvenSensation"/>, a CSV file that <c>knurl sweep</c> writes.
+        /// Null, the default: none. Counts from the next start on.</summary>
+        public TextAsset ResponseFile
+        {
+            get { return responseFile; }
+            set { responseFile = value; }
         }
 
         /// <summary>Pauses this device: the force ramps down to zero, contacts end, the motors cool, and <see

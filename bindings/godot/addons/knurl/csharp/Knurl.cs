@@ -206,6 +206,11 @@ namespace Knurl
         /// <summary>Name of the running device, for display.</summary>
         public string DeviceName { get { return Object.Get("device_name").AsString(); } }
 
+        /// <summary>If true, the amplitude of gratings is lowered at some speeds, so that ridges are equally strong
+        /// from 25 to 300 per second: by ResponseFile or, without one, by the device's mass and friction in a model of
+        /// a hand. Has no effect with a mouse. Counts from the next start on.</summary>
+        public bool EvenSensation { get { return Object.Get("even_sensation").AsBool(); } set { Object.Set("even_sensation", value); } }
+
         /// <summary>The latest force, in N, global.</summary>
         public Vector3 Force { get { return Object.Get("force").AsVector3(); } }
 
@@ -241,6 +246,10 @@ namespace Knurl
 
         /// <summary>If true, a lost device is reopened once it is back; otherwise its loss stops this node.</summary>
         public bool Reconnect { get { return Object.Get("reconnect").AsBool(); } set { Object.Set("reconnect", value); } }
+
+        /// <summary>The device's measured response for EvenSensation, a CSV file that knurl sweep writes. Empty: none.
+        /// An exported game needs *.csv in its export filter. Counts from the next start on.</summary>
+        public string ResponseFile { get { return Object.Get("response_file").AsString(); } set { Object.Set("response_file", value); } }
 
         /// <summary>Seconds between attempts if a start by Autostart fails; 0: no further attempts. For players who
         /// plug their device in later.</summary>

@@ -30,7 +30,7 @@ namespace Knurl.Tests
             }
             var device = Make<KnurlDevice>();
             foreach (string field in new[] { "device", "stroke", "rate", "workspaceScale", "autostart", "reconnect",
-                "clamp", "contactStarted", "contactEnded", "buttonChanged", "fault" })
+                "clamp", "evenSensation", "responseFile", "contactStarted", "contactEnded", "buttonChanged", "fault" })
             {
                 Assert.IsNotNull(new SerializedObject(device).FindProperty(field), field);
             }

@@ -25,7 +25,7 @@ namespace Knurl.Tests
             Assert.AreEqual("", d.Stroke);
             Assert.AreEqual(1000f, d.Rate);
             Assert.AreEqual(1f, d.WorkspaceScale);
-            Assert.That(d.Autostart && d.Reconnect && d.Clamp);
+            Assert.That(d.Autostart && d.Reconnect && d.Clamp && !d.EvenSensation && d.ResponseFile == null);
         }
 
         [Test]
@@ -83,6 +83,27 @@ namespace Knurl.Tests
             Assert.That(d.StartDevice(), Is.False);
             d.WorkspaceScale = 1f;
             Assert.That(d.StartDevice(), "and is well after all that");
+        }
+
+        [Test]
+        public void EvenSensationTakesAResponseOrTheModel()
+        {
+            KnurlDevice d = MakeDevice();
+            d.EvenSensation = true;
+            Assert.That(d.StartDevice());
+            d.StopDevice();
+            d.ResponseFile = new TextAsset("# knurl response 1\nfrequency_hz,gain\n20,1\n400,1\n");
+            Assert.That(d.StartDevice());
+            d.StopDevice();
+            d.ResponseFile = new TextAsset("# knurl response 1\nfrequency_hz,gain\n20,1\n400,-1\n");
+            ExpectError("response: line 4: expected a gain above 0");
+            Assert.That(d.StartDevice(), Is.False);
+            d.ResponseFile = new TextAsset("");
+            ExpectError("response: expected text");
+            Assert.That(d.StartDevice(), Is.False);
+            d.EvenSensation = false; // then it does not count
+            d.ResponseFile = new TextAsset("nothing");
+            Assert.That(d.StartDevice());
         }
 
         [Test]
