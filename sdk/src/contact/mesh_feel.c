@@ -22,7 +22,7 @@ typedef struct path {
     knurl_patch_point at;
     double weights[3];
     int hard; /* the corner opposite the hard edge that the point is on, or -1 */
-    int rim;  /* 1: that edge is a boundary */
+    int rim;  /* 1: that edge is a boundary, or one that meets it here */
 } path;
 
 static void load(const knurl_mesh *mesh, uint32_t triangle, knurl_patch *patch) {
@@ -39,7 +39,7 @@ static int cross_edge(path *w, uint32_t k) {
     const uint32_t apex = beyond & KNURL_CORNER_MASK;
     const uint32_t next = (k + 1) % 3, last = (k + 2) % 3;
     knurl_patch other;
-    w->rim = apex == KNURL_BOUNDARY;
+    w->rim = (w->rim && w->hard >= 0) || apex == KNURL_BOUNDARY; /* in a corner of two hard edges: either */
     if ((apex & 3) == 3 || (beyond & KNURL_FLIPPED)) {
         return 0;
     }
