@@ -21,10 +21,9 @@ static const uint32_t *attributes_of(const knurl_mesh *mesh, uint32_t triangle) 
 }
 
 /* The same of projected positions. */
-static int find_projected(const knurl_mesh *mesh, uint32_t triangle, uv_edges *e) {
-    double corners[3][3], uv[3][2];
-    const int side = knurl_projection_side_of(mesh, triangle);
-    knurl_mesh_corners(mesh, triangle, corners);
+static int find_projected(const double corners[3][3], uv_edges *e) {
+    double uv[3][2];
+    const int side = knurl_projection_side_of(corners);
     for (int k = 0; k < 3; k++) {
         knurl_projection_place(side, corners[k], uv[k]);
     }
@@ -41,7 +40,9 @@ static int find_projected(const knurl_mesh *mesh, uint32_t triangle, uv_edges *e
 /* Fills in all but the edges, for a mesh with uvs. 0 if the uvs have no area. */
 static int find_uvs(const knurl_mesh *mesh, uint32_t triangle, uv_edges *e) {
     if (mesh->is_projected) {
-        return find_projected(mesh, triangle, e);
+        double corners[3][3];
+        knurl_mesh_corners(mesh, triangle, corners);
+        return find_projected((const double (*)[3])corners, e);
     }
     const uint32_t *at = attributes_of(mesh, triangle);
     const float *uv[3] = {&mesh->uvs[2 * (size_t)at[0]], &mesh->uvs[2 * (size_t)at[1]], &mesh->uvs[2 * (size_t)at[2]]};
@@ -64,7 +65,7 @@ static int find_uv_edges(const knurl_mesh *mesh, uint32_t triangle, uv_edges *e)
     knurl_mesh_corners(mesh, triangle, corners);
     vec3_sub(corners[1], corners[0], e->edge1);
     vec3_sub(corners[2], corners[0], e->edge2);
-    return find_uvs(mesh, triangle, e);
+    return mesh->is_projected ? find_projected((const double (*)[3])corners, e) : find_uvs(mesh, triangle, e);
 }
 
 int knurl_mesh_uv_frame(const knurl_mesh *mesh, uint32_t triangle, double du[3], double dv[3]) {
@@ -227,20 +228,23 @@ static void keep_frame(const knurl_mesh *mesh, knurl_facet *f) {
 
 void knurl_mesh_carry(const knurl_mesh *mesh, const knurl_contact *contact, int begins, knurl_projection_carry *carry,
                       double coordinates[2]) {
-    const int side = knurl_projection_side_of(mesh, contact->triangle);
-    if (begins) {
-        carry->by[0] = carry->by[1] = 0.0;
-    } else if (side != carry->side) {
+    if (begins || contact->triangle != carry->triangle) {
         double before[2], corners[3][3], point[3] = {0.0, 0.0, 0.0};
-        knurl_mesh_corners(mesh, contact->triangle, corners); /* a smooth mesh's proxy may be off the triangle */
-        for (int k = 0; k < 3; k++) {
-            vec3_madd(point, contact->weights[k], corners[k], point);
+        knurl_mesh_corners(mesh, contact->triangle, corners);
+        const int side = knurl_projection_side_of((const double (*)[3])corners);
+        if (begins) {
+            carry->by[0] = carry->by[1] = 0.0;
+        } else if (side != carry->side) {
+            for (int k = 0; k < 3; k++) { /* a smooth mesh's proxy may be off the triangle */
+                vec3_madd(point, contact->weights[k], corners[k], point);
+            }
+            knurl_projection_place(carry->side, point, before);
+            carry->by[0] += before[0] - coordinates[0];
+            carry->by[1] += before[1] - coordinates[1];
         }
-        knurl_projection_place(carry->side, point, before);
-        carry->by[0] += before[0] - coordinates[0];
-        carry->by[1] += before[1] - coordinates[1];
+        carry->side = side;
+        carry->triangle = contact->triangle;
     }
-    carry->side = side;
     coordinates[0] += carry->by[0];
     coordinates[1] += carry->by[1];
 }

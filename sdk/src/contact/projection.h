@@ -25,10 +25,11 @@ static inline int knurl_projection_side(const double normal[3]) {
 static const knurl_projection knurl_projections[6] = {{2, 1, -1.0, 1.0}, {2, 1, 1.0, 1.0}, {0, 2, 1.0, -1.0},
                                                       {0, 2, 1.0, 1.0},  {0, 1, 1.0, 1.0}, {0, 1, -1.0, 1.0}};
 
-/* Kept from tick to tick of a contact: an offset of its coordinates, and the direction of the last tick. */
+/* Kept from tick to tick of a contact: an offset of its coordinates, and the direction at the last tick. */
 typedef struct knurl_projection_carry {
     double by[2]; /* m */
     int32_t side;
+    uint32_t triangle; /* of the last tick */
 } knurl_projection_carry;
 
 /* A point's coordinates, m. */
@@ -39,9 +40,8 @@ static inline void knurl_projection_place(int side, const double p[3], double co
 }
 
 /* The direction of a triangle. */
-static inline int knurl_projection_side_of(const knurl_mesh *mesh, uint32_t triangle) {
-    double corners[3][3], ab[3], ac[3], normal[3];
-    knurl_mesh_corners(mesh, triangle, corners);
+static inline int knurl_projection_side_of(const double corners[3][3]) {
+    double ab[3], ac[3], normal[3];
     vec3_sub(corners[1], corners[0], ab);
     vec3_sub(corners[2], corners[0], ac);
     vec3_cross(ab, ac, normal);

@@ -86,13 +86,19 @@ static double find_even(const uv_triangle *list, uint32_t count, const double sc
     return even;
 }
 
+static int projection_of(const knurl_mesh *mesh, uint32_t triangle) {
+    double corners[3][3];
+    knurl_mesh_corners(mesh, triangle, corners);
+    return knurl_projection_side_of((const double (*)[3])corners);
+}
+
 /* Counts the edges at which the projection changes. */
 static uint32_t count_seams(const knurl_mesh *mesh) {
     uint32_t seams = 0;
     for (uint32_t i = 0; i < 3 * mesh->triangle_count; i++) {
         const uint32_t beyond = (mesh->opposite[i] & KNURL_CORNER_MASK);
-        seams += (beyond & 3) != 3 && beyond >> 2 > i / 3 &&
-                 knurl_projection_side_of(mesh, beyond >> 2) != knurl_projection_side_of(mesh, i / 3);
+        seams +=
+            (beyond & 3) != 3 && beyond >> 2 > i / 3 && projection_of(mesh, beyond >> 2) != projection_of(mesh, i / 3);
     }
     return seams;
 }
