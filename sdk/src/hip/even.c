@@ -7,7 +7,7 @@
 #include <string.h>
 
 /* The gain at `hz`: straight in log hz between two pairs, constant beyond. */
-static double between(const knurl_gain *gains, uint32_t count, double hz) {
+static double gain_at(const knurl_gain *gains, uint32_t count, double hz) {
     uint32_t i = 0;
     while (i < count && gains[i].hz < hz) {
         i++;
@@ -44,7 +44,7 @@ knurl_result knurl_even_init(const knurl_gain *gains, uint32_t count, knurl_even
         }
     }
     for (int i = 0; i < KNURL_EVEN_VALUES; i++) {
-        const double gain = between(gains, count, ldexp(1.0 + i % 16 / 16.0, KNURL_EVEN_LOWEST + i / 16));
+        const double gain = gain_at(gains, count, ldexp(1.0 + i % 16 / 16.0, KNURL_EVEN_LOWEST + i / 16));
         even->gains[i] = gain;
         even->lowest = gain < even->lowest ? gain : even->lowest;
     }
