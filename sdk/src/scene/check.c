@@ -13,6 +13,7 @@ typedef struct inspection {
     const knurl_bounds *bounds;
     const knurl_material_desc *material;
     const char *name;
+    const knurl_shape_facts *facts;
     knurl_surface_check *check;
     int32_t clamped; /* 1: the guard clamps walls to the limits */
 } inspection;
@@ -83,7 +84,6 @@ static void check_texture(const inspection *on, double stiffness) {
 static void check_stretch(const inspection *on, const knurl_surface_data *surface) {
     const knurl_material_desc *m = on->material;
     const int has_axis = vec3_dot(surface->axis, surface->axis) > 0.0;
-    knurl_shape_facts facts;
     if (!knurl_methods[m->method].follows_position || has_axis) {
         return;
     }
@@ -94,16 +94,15 @@ static void check_stretch(const inspection *on, const knurl_surface_data *surfac
     if (surface->shape.is_projected) {
         return;
     }
-    knurl_shape_get_facts(&surface->shape, &facts);
     for (int i = 0; i < 2; i++) {
         const double *tagged = m->spatial_frequency;
         const double fs = m->orientation == 0.0 ? tagged[i] : fmax(tagged[0], tagged[1]); /* rotated, both may apply */
-        const double *stretch = facts.stretch[i];
+        const double *stretch = on->facts->stretch[i];
         if (fs > 0.0 && (stretch[2] > KNURL_STRETCH_MAX || stretch[0] * KNURL_STRETCH_MAX < 1.0)) {
             say(on, KNURL_LIMIT_STRETCH, "unwrap it evenly, give it an axis or box coordinates, or use S2",
                 "its uvs stretch: the %.4g/m along %c are felt as %.4g to %.4g/m, more than an octave off on "
                 "%.2g %% of its area",
-                fs, "uv"[i], stretch[0] * fs, stretch[2] * fs, 100.0 * facts.uneven);
+                fs, "uv"[i], stretch[0] * fs, stretch[2] * fs, 100.0 * on->facts->uneven);
         }
     }
 }
@@ -192,35 +191,33 @@ static void check_crowd(const inspection *on, const knurl_scene *scene, const kn
 
 /* Triangles that share an edge and face opposite ways. */
 static void check_winding(const inspection *on, const knurl_surface_data *surface) {
-    knurl_shape_facts facts;
-    knurl_shape_get_facts(&surface->shape, &facts);
-    if (facts.reversed_twins > 0 && facts.reversed_twins < facts.triangle_count) {
+    const knurl_shape_facts *facts = on->facts;
+    if (facts->reversed_twins > 0 && facts->reversed_twins < facts->triangle_count) {
         say(on, KNURL_LIMIT_WINDING, "merge or delete the doubled faces in the editor",
-            "%u of its %u triangles have a reversed twin, %s", (unsigned)facts.reversed_twins,
-            (unsigned)facts.triangle_count,
+            "%u of its %u triangles have a reversed twin, %s", (unsigned)facts->reversed_twins,
+            (unsigned)facts->triangle_count,
             surface->double_sided ? "so all of it is felt from both sides" : "which was left out");
     }
-    if (facts.turned > 0) {
+    if (facts->turned > 0) {
         say(on, KNURL_LIMIT_WINDING, "recalculate the normals in the editor",
-            "%u of its %u triangles were wound against their neighbours, and were turned over", (unsigned)facts.turned,
-            (unsigned)facts.triangle_count);
+            "%u of its %u triangles were wound against their neighbours, and were turned over", (unsigned)facts->turned,
+            (unsigned)facts->triangle_count);
     }
-    if (facts.mixed > 0 && !surface->double_sided) {
+    if (facts->mixed > 0 && !surface->double_sided) {
         say(on, KNURL_LIMIT_WINDING, "recalculate the normals in the editor, or make each part a mesh of its own",
             "%u of its %u triangles are wound against their neighbours, and may let the HIP through: too many "
             "triangles touch there to find the right side",
-            (unsigned)facts.mixed, (unsigned)facts.triangle_count);
+            (unsigned)facts->mixed, (unsigned)facts->triangle_count);
     }
 }
 
-static void check_normals(const inspection *on, const knurl_surface_data *surface) {
-    knurl_shape_facts facts;
-    knurl_shape_get_facts(&surface->shape, &facts);
-    if (facts.bad_normals > 0 && !facts.has_computed_normals) {
+static void check_normals(const inspection *on) {
+    const knurl_shape_facts *facts = on->facts;
+    if (facts->bad_normals > 0 && !facts->has_computed_normals) {
         say(on, KNURL_LIMIT_NORMALS, "recalculate the normals in the editor",
             "%u of its %u triangles are felt flat, because their normals are not of unit length, more than "
             "60 degrees off the triangle, or fold the surface",
-            (unsigned)facts.bad_normals, (unsigned)facts.triangle_count);
+            (unsigned)facts->bad_normals, (unsigned)facts->triangle_count);
     }
 }
 
@@ -229,9 +226,11 @@ static void inspect(const knurl_scene *scene, const knurl_hip *hip, const knurl_
     const knurl_material_desc *m = &surface->record->material;
     knurl_workspace workspace;
     knurl_bounds bounds; /* not the guard's: their scale changes on the haptic thread */
-    const inspection on = {&bounds, m, surface->name, check, hip->guard.clamp};
+    knurl_shape_facts facts;
+    const inspection on = {&bounds, m, surface->name, &facts, check, hip->guard.clamp};
     knurl_wall wall;
     memset(check, 0, sizeof *check);
+    knurl_shape_get_facts(&surface->shape, &facts);
     knurl_workspace_target(&hip->move, &hip->workspace, &workspace);
     knurl_bounds_init(&bounds, &hip->facts, workspace.scale);
     knurl_wall_init(&wall, m, 0.0, NULL);
@@ -250,7 +249,7 @@ static void inspect(const knurl_scene *scene, const knurl_hip *hip, const knurl_
     check_visits(&on, surface, hip->contacts.budget.max);
     check_crowd(&on, scene, surface);
     check_winding(&on, surface);
-    check_normals(&on, surface);
+    check_normals(&on);
     if (!surface->record->is_smooth) {
         check_texture(&on, wall.stiffness);
         check_stretch(&on, surface);
