@@ -100,9 +100,9 @@ static knurl_block *make_block(knurl_heap *heap, size_t bytes) {
     return block;
 }
 
-static void release_block(knurl_heap *heap, knurl_block *block) {
-    heap->bytes -= block->size;
-    if (heap->locked) { /* unlocks whole pages, with any neighbours in them */
+/* is_locked: the heap's `locked`, which is read under its lock. */
+static void release_block(const knurl_heap *heap, knurl_block *block, uint64_t is_locked) {
+    if (is_locked) { /* unlocks whole pages, with any neighbours in them */
         knurl_system_unlock_memory(block, block->size);
     }
     heap->allocator.release(block, block->size, heap->allocator.user);
@@ -113,7 +113,8 @@ static void release_spares(knurl_heap *heap) {
     while (heap->spares) {
         knurl_block *block = heap->spares;
         heap->spares = block->next;
-        release_block(heap, block);
+        heap->bytes -= block->size;
+        release_block(heap, block, heap->locked);
     }
     heap->spare_count = 0;
 }
@@ -155,13 +156,22 @@ void knurl_heap_free(knurl_heap *heap, void *memory) {
         block->next = heap->spares;
         heap->spares = block;
         heap->spare_count++;
+        block = NULL;
     } else {
-        release_block(heap, block);
+        heap->bytes -= block->size;
     }
     if (!heap->first) {
         release_spares(heap);
     }
+    const int is_ours = heap->allocator.release == default_release;
+    const uint64_t is_locked = heap->locked;
+    if (block && !is_ours) {
+        release_block(heap, block, is_locked);
+    }
     leave(heap);
+    if (block && is_ours) { /* free() has locks of its own, and takes milliseconds for a large block */
+        release_block(heap, block, is_locked);
+    }
 }
 
 uint64_t knurl_heap_bytes(const knurl_heap *heap) {

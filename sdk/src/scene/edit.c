@@ -163,6 +163,5 @@ void knurl_scene_collect(knurl_scene *scene) {
         return;
     }
     knurl_scene_lock(scene);
-    knurl_epoch_collect(&scene->epoch);
-    knurl_scene_unlock(scene);
+    knurl_scene_unlock(scene); /* releases what no tick can see */
 }

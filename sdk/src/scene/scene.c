@@ -35,7 +35,7 @@ static knurl_result check_scene_desc(const knurl_scene_desc *d) {
 static void free_scene(knurl_scene *scene) {
     knurl_surfaces_release(&scene->surfaces);
     knurl_broad_phase_release(&scene->broad_phase);
-    knurl_epoch_release_all(&scene->epoch);
+    knurl_epoch_release(&scene->heap, scene->epoch.retired);
     knurl_heap_free(&scene->heap, scene->hips);
     for (int i = 0; i < 2; i++) {
         knurl_system_mutex_destroy(&scene->mutexes[i]);
@@ -154,7 +154,11 @@ void knurl_scene_lock(const knurl_scene *scene) {
 }
 
 void knurl_scene_unlock(const knurl_scene *scene) {
+    knurl_epoch *epoch = scene->broad_phase.epoch;
+    knurl_heap *heap = epoch->heap;
+    knurl_retired *taken = knurl_epoch_take(epoch);
     knurl_system_mutex_unlock(scene->lock);
+    knurl_epoch_release(heap, taken);
 }
 
 knurl_result knurl_scene_lock_surface(const knurl_scene *scene, knurl_surface_id id, knurl_surface_data **surface) {

@@ -15,7 +15,7 @@ void knurl_epoch_add_pin(knurl_epoch *epoch, const uint64_t *pin) {
     epoch->pins[epoch->pin_count++] = pin;
 }
 
-void knurl_epoch_collect(knurl_epoch *epoch) {
+knurl_retired *knurl_epoch_take(knurl_epoch *epoch) {
     uint64_t oldest = UINT64_MAX; /* epoch in which a running tick began */
     for (uint32_t i = 0; i < epoch->pin_count && epoch->retired; i++) {
         const uint64_t pinned = __atomic_load_n(epoch->pins[i], __ATOMIC_SEQ_CST);
@@ -23,29 +23,31 @@ void knurl_epoch_collect(knurl_epoch *epoch) {
             oldest = pinned;
         }
     }
+    knurl_retired *taken = NULL;
     knurl_retired **link = &epoch->retired;
     while (*link) {
         knurl_retired *retired = *link;
         if (retired->epoch < oldest) {
             *link = retired->next;
-            retired->release(epoch->heap, retired);
+            retired->next = taken;
+            taken = retired;
         } else {
             link = &retired->next;
         }
     }
+    return taken;
 }
 
 void knurl_epoch_retire(knurl_epoch *epoch, knurl_retired *retired) {
     retired->epoch = __atomic_fetch_add(&epoch->now, 1, __ATOMIC_SEQ_CST);
     retired->next = epoch->retired;
     epoch->retired = retired;
-    knurl_epoch_collect(epoch);
 }
 
-void knurl_epoch_release_all(knurl_epoch *epoch) {
-    while (epoch->retired) {
-        knurl_retired *retired = epoch->retired;
-        epoch->retired = retired->next;
-        retired->release(epoch->heap, retired);
+void knurl_epoch_release(knurl_heap *heap, knurl_retired *taken) {
+    while (taken) {
+        knurl_retired *retired = taken;
+        taken = retired->next;
+        retired->release(heap, retired);
     }
 }

@@ -37,13 +37,14 @@ static inline void knurl_epoch_unpin(uint64_t *pin) {
     __atomic_store_n(pin, 0, __ATOMIC_RELEASE);
 }
 
-/* Releases an unreachable object once no tick can see it. Under the scene's lock. */
+/* Keeps an unreachable object until no tick can see it. Under the scene's lock. */
 void knurl_epoch_retire(knurl_epoch *epoch, knurl_retired *retired);
 
-/* Releases the retired objects that no tick can see any more. Under the scene's lock. */
-void knurl_epoch_collect(knurl_epoch *epoch);
+/* Takes the retired objects that no tick can see any more off the list. Under the scene's lock. */
+knurl_retired *knurl_epoch_take(knurl_epoch *epoch);
 
-/* Releases all retired objects. No tick may run any more. */
-void knurl_epoch_release_all(knurl_epoch *epoch);
+/* Releases those, or the list of an epoch in which no tick may run any more. A mesh of a million triangles takes
+ * milliseconds: not under the scene's lock. */
+void knurl_epoch_release(knurl_heap *heap, knurl_retired *taken);
 
 #endif

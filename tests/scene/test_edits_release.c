@@ -1,0 +1,69 @@
+/* Freeing a large mesh takes milliseconds: other threads' edits and questions do not wait for it.
+ * SPDX-License-Identifier: MIT */
+#include "support/ledger.h"
+
+#include "base/system.h"
+
+#include <pthread.h>
+
+#define LARGE       20000 /* bytes: only arrays of the mesh are larger */
+#define PATIENCE_NS INT64_C(3000000000)
+
+/* An allocator that keeps books, and asks the scene something, on another thread, while a large block is released. */
+typedef struct asker {
+    ledger books;
+    knurl_scene *scene;
+    knurl_surface_id id;
+    pthread_t thread;
+    int is_armed, is_asking; /* on the editing thread */
+    int is_answered;         /* atomic */
+    int waited;              /* 1: no answer came while the block was being released */
+} asker;
+
+static void *ask(void *argument) {
+    asker *a = argument;
+    (void)knurl_scene_has_surface(a->scene, a->id);
+    __atomic_store_n(&a->is_answered, 1, __ATOMIC_RELEASE);
+    return NULL;
+}
+
+static void *allocate(size_t size, size_t alignment, void *user) {
+    return take(size, alignment, &((asker *)user)->books);
+}
+
+static void release(void *memory, size_t size, void *user) {
+    asker *a = user;
+    if (a->is_armed && !a->is_asking && size > LARGE) {
+        a->is_asking = 1;
+        assert_int_equal(pthread_create(&a->thread, NULL, ask, a), 0);
+        const int64_t end = knurl_system_now_ns() + PATIENCE_NS;
+        while (!__atomic_load_n(&a->is_answered, __ATOMIC_ACQUIRE) && knurl_system_now_ns() < end) {}
+        a->waited = !__atomic_load_n(&a->is_answered, __ATOMIC_ACQUIRE);
+    }
+    give_back(memory, size, &a->books);
+}
+
+static double hills(double x, double y) {
+    return 0.002 * sin(150.0 * x) * cos(130.0 * y);
+}
+
+TEST(no_edit_waits_while_a_removed_mesh_is_freed) {
+    static const double half[2] = {0.05, 0.04};
+    SCOPED_SHAPE sheet = shape_sheet(60, 60, half, hills);
+    surface_parts parts = surface_mesh(&sheet);
+    asker a = {.scene = NULL};
+    const knurl_allocator allocator = {allocate, release, &a};
+    knurl_scene_desc desc;
+    knurl_scene_desc_init(&desc, sizeof desc);
+    desc.allocator = &allocator;
+    assert_int_equal(knurl_scene_create(&desc, &a.scene), KNURL_OK);
+    a.id = add_surface(a.scene, &parts);
+    assert_int_equal(knurl_scene_commit(a.scene), KNURL_OK);
+    a.is_armed = 1;
+    assert_int_equal(knurl_scene_remove_surface(a.scene, a.id), KNURL_OK);
+    a.is_armed = 0;
+    assert_true(a.is_asking);
+    assert_int_equal(pthread_join(a.thread, NULL), 0);
+    assert_false(a.waited);
+    knurl_scene_destroy(a.scene);
+}
