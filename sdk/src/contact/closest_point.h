@@ -8,21 +8,21 @@
 /* The point of one triangle closest to p. */
 typedef struct knurl_closest_point {
     double corners[3][3];
-    double normal[3];  /* the triangle's normal, times twice its area */
+    double cross[3];   /* of the edges: along the normal, twice the area long */
     double weights[3]; /* barycentric; exactly 0 for corners off the feature */
     double point[3];
     double offset[3]; /* from the point to p */
     double distance2;
-    double area2; /* twice the triangle's area, squared */
+    double cross2; /* its length, squared */
     uint32_t triangle;
     unsigned feature; /* vertex, edge or face that the point is on: one bit per corner; 7: the face */
 } knurl_closest_point;
 
 /* Closest edge or vertex if p does not project into the face, by Voronoi regions (Ericson 2005, section 5.1.5). inside:
- * barycentric coordinates of b and c, times area2. */
+ * barycentric coordinates of b and c, times cross2. */
 void knurl_closest_on_edges(const double p[3], const double inside[2], knurl_closest_point *closest) KNURL_NONBLOCKING;
 
-/* If p projects into the face, as it nearly always does, the normal and one division suffice. */
+/* If p projects into the face, as it nearly always does, the cross product and one division suffice. */
 static inline void knurl_closest_on_triangle(const knurl_mesh *mesh, uint32_t triangle, const double p[3],
                                              knurl_closest_point *closest) {
     double ab[3], ac[3], ap[3], across[3];
@@ -31,17 +31,17 @@ static inline void knurl_closest_on_triangle(const knurl_mesh *mesh, uint32_t tr
     vec3_sub(closest->corners[1], closest->corners[0], ab);
     vec3_sub(closest->corners[2], closest->corners[0], ac);
     vec3_sub(p, closest->corners[0], ap);
-    vec3_cross(ab, ac, closest->normal);
-    vec3_cross(closest->normal, ap, across);
-    closest->area2 = vec3_dot(closest->normal, closest->normal);
+    vec3_cross(ab, ac, closest->cross);
+    vec3_cross(closest->cross, ap, across);
+    closest->cross2 = vec3_dot(closest->cross, closest->cross);
     const double inside[2] = {vec3_dot(across, ac), -vec3_dot(across, ab)};
-    const double inverse = 1.0 / closest->area2;
-    if (!(inside[0] > 0.0 && inside[1] > 0.0 && inside[0] + inside[1] < closest->area2)) {
+    const double inverse = 1.0 / closest->cross2;
+    if (!(inside[0] > 0.0 && inside[1] > 0.0 && inside[0] + inside[1] < closest->cross2)) {
         knurl_closest_on_edges(p, inside, closest);
         return;
     }
-    const double height = vec3_dot(ap, closest->normal);
-    vec3_scale(height * inverse, closest->normal, closest->offset);
+    const double height = vec3_dot(ap, closest->cross);
+    vec3_scale(height * inverse, closest->cross, closest->offset);
     vec3_sub(p, closest->offset, closest->point);
     closest->distance2 = height * height * inverse;
     closest->weights[1] = inside[0] * inverse;

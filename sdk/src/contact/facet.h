@@ -12,10 +12,10 @@ struct knurl_facet {
     uint32_t triangle;
     int32_t side; /* that the HIP came from, +1 or -1; 0: the cache is empty */
     double corners[3][3], ab[3], ac[3];
-    double normal[3]; /* times twice the area */
-    double area2;     /* twice the area, squared */
-    double inverse;   /* 1 / area2 */
-    double unit[3];   /* unit normal towards `side` */
+    double cross[3]; /* as knurl_closest_point's */
+    double cross2;
+    double inverse; /* 1 / cross2 */
+    double unit[3]; /* unit normal towards `side` */
     /* set by mesh_frame.c */
     int32_t has_frame;     /* 1: x and y are set */
     int32_t has_uvs;       /* 1: the uvs have an area and are set */
@@ -36,9 +36,9 @@ static inline void knurl_facet_keep(const knurl_closest_point *closest, int32_t 
     memcpy(f->corners, closest->corners, sizeof f->corners);
     vec3_sub(closest->corners[1], closest->corners[0], f->ab);
     vec3_sub(closest->corners[2], closest->corners[0], f->ac);
-    vec3_copy(closest->normal, f->normal);
-    f->area2 = closest->area2;
-    f->inverse = 1.0 / closest->area2;
+    vec3_copy(closest->cross, f->cross);
+    f->cross2 = closest->cross2;
+    f->inverse = 1.0 / closest->cross2;
     vec3_copy(unit, f->unit);
 }
 
@@ -48,17 +48,17 @@ static inline int knurl_facet_contact(const knurl_facet *f, const double hip[3],
                                       knurl_closest_point *closest) {
     double ap[3], across[3], offset[3];
     vec3_sub(hip, f->corners[0], ap);
-    vec3_cross(f->normal, ap, across);
+    vec3_cross(f->cross, ap, across);
     const double inside[2] = {vec3_dot(across, f->ac), -vec3_dot(across, f->ab)};
-    if (!(inside[0] > 0.0 && inside[1] > 0.0 && inside[0] + inside[1] < f->area2)) {
+    if (!(inside[0] > 0.0 && inside[1] > 0.0 && inside[0] + inside[1] < f->cross2)) {
         closest->triangle = f->triangle;
-        closest->area2 = f->area2;
-        vec3_copy(f->normal, closest->normal);
+        closest->cross2 = f->cross2;
+        vec3_copy(f->cross, closest->cross);
         memcpy(closest->corners, f->corners, sizeof closest->corners);
         knurl_closest_on_edges(hip, inside, closest);
         return 0;
     }
-    vec3_scale(vec3_dot(ap, f->normal) * f->inverse, f->normal, offset);
+    vec3_scale(vec3_dot(ap, f->cross) * f->inverse, f->cross, offset);
     vec3_sub(hip, offset, c->proxy);
     c->weights[1] = inside[0] * f->inverse;
     c->weights[2] = inside[1] * f->inverse;

@@ -9,15 +9,15 @@
 
 /* 1 if a point in the triangle's plane is at most `seam` beyond each edge and outside of the triangle's box: the edges
  * alone would extend a sliver far beyond its tips. inside: as for knurl_closest_on_edges(). */
-static int is_near_triangle(const double corners[3][3], const double p[3], const double inside[2], double area2,
+static int is_near_triangle(const double corners[3][3], const double p[3], const double inside[2], double cross2,
                             double seam) {
     double bc[3], ac[3], ab[3];
     vec3_sub(corners[2], corners[1], bc);
     vec3_sub(corners[2], corners[0], ac);
     vec3_sub(corners[1], corners[0], ab);
-    const double size = seam * sqrt(area2);
+    const double size = seam * sqrt(cross2);
     if (!(inside[0] >= -size * vec3_length(ac) && inside[1] >= -size * vec3_length(ab) &&
-          area2 - inside[0] - inside[1] >= -size * vec3_length(bc))) {
+          cross2 - inside[0] - inside[1] >= -size * vec3_length(bc))) {
         return 0;
     }
     for (int axis = 0; axis < 3; axis++) {
@@ -38,18 +38,18 @@ static void bound(const knurl_mesh *mesh, const knurl_cast *cast, const double t
 /* 1 if a segment hits a triangle before `hit`, which is then replaced. */
 static int cast_at(const knurl_mesh *mesh, uint32_t triangle, const knurl_cast *cast, const double way[3],
                    knurl_cast_hit *hit) {
-    double corners[3][3], ab[3], ac[3], normal[3], from[3], across[3], point[3];
+    double corners[3][3], ab[3], ac[3], cross[3], from[3], across[3], point[3];
     knurl_mesh_corners(mesh, triangle, corners);
     vec3_sub(corners[1], corners[0], ab);
     vec3_sub(corners[2], corners[0], ac);
-    vec3_cross(ab, ac, normal);
+    vec3_cross(ab, ac, cross);
     vec3_sub(cast->from, corners[0], from);
-    const double before = vec3_dot(from, normal);
-    const double rise = vec3_dot(way, normal);
+    const double before = vec3_dot(from, cross);
+    const double rise = vec3_dot(way, cross);
     const int side = rise < 0.0 ? 1 : -1;
-    const double area2 = vec3_dot(normal, normal);
+    const double cross2 = vec3_dot(cross, cross);
     const int misses = side * (before + rise) >= 0.0 || (side < 0 && !cast->double_sided) || rise == 0.0;
-    if (misses || (side * before < 0.0 && before * before > KNURL_CAST_SLACK * KNURL_CAST_SLACK * area2)) {
+    if (misses || (side * before < 0.0 && before * before > KNURL_CAST_SLACK * KNURL_CAST_SLACK * cross2)) {
         return 0;
     }
     const double share = side * before > 0.0 ? -before / rise : 0.0;
@@ -58,19 +58,19 @@ static int cast_at(const knurl_mesh *mesh, uint32_t triangle, const knurl_cast *
     }
     vec3_madd(cast->from, share, way, point);
     vec3_madd(from, share, way, from);
-    vec3_cross(normal, from, across);
+    vec3_cross(cross, from, across);
     const double inside[2] = {vec3_dot(across, ac), -vec3_dot(across, ab)};
-    if (!(inside[0] >= 0.0 && inside[1] >= 0.0 && inside[0] + inside[1] <= area2) &&
-        !is_near_triangle((const double (*)[3])corners, point, inside, area2, mesh->seam)) {
+    if (!(inside[0] >= 0.0 && inside[1] >= 0.0 && inside[0] + inside[1] <= cross2) &&
+        !is_near_triangle((const double (*)[3])corners, point, inside, cross2, mesh->seam)) {
         return 0;
     }
-    const double size = sqrt(area2);
+    const double size = sqrt(cross2);
     hit->share = share;
     hit->height = side * before / size;
     hit->triangle = triangle;
     hit->side = side;
     vec3_copy(point, hit->point);
-    vec3_scale(side / size, normal, hit->normal);
+    vec3_scale(side / size, cross, hit->normal);
     return 1;
 }
 

@@ -24,7 +24,7 @@ static int32_t has_parts(const knurl_mesh *mesh) {
 
 /* Distance of a HIP beyond the boundary that its closest point is on, along the surface; along: as a vector. */
 static double off_boundary(const knurl_closest_point *closest, double along[3]) {
-    vec3_madd(closest->offset, -vec3_dot(closest->offset, closest->normal) / closest->area2, closest->normal, along);
+    vec3_madd(closest->offset, -vec3_dot(closest->offset, closest->cross) / closest->cross2, closest->cross, along);
     return vec3_length(along);
 }
 
@@ -48,7 +48,7 @@ static int set_contact(const knurl_mesh *mesh, knurl_visits *visits, int32_t sid
     c->triangle = closest->triangle;
     c->facet = NULL;
     if (closest->feature == 7) {
-        vec3_scale(side / sqrt(closest->area2), closest->normal, c->normal);
+        vec3_scale(side / sqrt(closest->cross2), closest->cross, c->normal);
         c->z = vec3_dot(closest->offset, c->normal);
         return 1;
     }
@@ -64,7 +64,7 @@ static int set_contact(const knurl_mesh *mesh, knurl_visits *visits, int32_t sid
         vec3_madd(offset, -1.0, outwards, offset); /* a small offset beyond the boundary must not tilt the normal */
     }
     if (distance < KNURL_NORMAL_DISTANCE) {
-        vec3_scale(side / sqrt(closest->area2), closest->normal, c->normal);
+        vec3_scale(side / sqrt(closest->cross2), closest->cross, c->normal);
     } else {
         vec3_scale((inside ? -1.0 : 1.0) / vec3_length(offset), offset, c->normal);
     }
@@ -144,7 +144,7 @@ static int contact_beyond_boundary(const knurl_mesh *mesh, const knurl_contact_q
     vec3_madd(boundary->point, 1.0, at, at);
     if (knurl_mesh_closest(mesh, at, off * (1.0 - 1e-9), NULL, query->visits, &other)) {
         knurl_closest_on_triangle(mesh, other.triangle, query->hip, &closest);
-        if (vec3_dot(closest.normal, boundary->normal) > 0.0) {
+        if (vec3_dot(closest.cross, boundary->cross) > 0.0) {
             (void)knurl_mesh_walk(mesh, query->hip, *side, query->visits, &closest);
             if (set_contact(mesh, query->visits, *side, &closest, c) && is_contact(mesh, query, reach, side, c)) {
                 return 1;

@@ -139,9 +139,9 @@ static void set_facet(const path *w, int32_t side, const double normal[3], knurl
     f->has_frame = 0;
     vec3_copy(w->at.tangents[0], f->ab);
     vec3_copy(w->at.tangents[1], f->ac);
-    vec3_cross(f->ab, f->ac, f->normal);
-    f->area2 = vec3_dot(f->normal, f->normal);
-    f->inverse = 1.0 / f->area2;
+    vec3_cross(f->ab, f->ac, f->cross);
+    f->cross2 = vec3_dot(f->cross, f->cross);
+    f->inverse = 1.0 / f->cross2;
     vec3_copy(normal, f->unit);
 }
 

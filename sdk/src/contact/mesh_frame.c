@@ -113,7 +113,7 @@ void knurl_mesh_set_axis(knurl_mesh *mesh, const double axis[3]) {
 }
 
 /* A coordinate's growth per metre along the triangle: in its plane, a displacement w is a edge1 + b edge2, with a = w .
- * (edge2 x across) / area2 and b = w . (across x edge1) / area2. c1, c2: its growth along the edges. */
+ * (edge2 x across) / cross2 and b = w . (across x edge1) / cross2. c1, c2: its growth along the edges. */
 static void find_gradient(const double edge1[3], const double edge2[3], const double across[3], double c1, double c2,
                           double scale, double gradient[3]) {
     double first[3], second[3];
@@ -219,7 +219,7 @@ static void keep_frame(const knurl_mesh *mesh, knurl_facet *f) {
         f->u2 = e.u2;
         f->v2 = e.v2;
         f->scale[0] = mesh->uv_scale[0];
-        f->scale[1] = vec3_dot(f->normal, f->unit) * e.det < 0.0 ? -mesh->uv_scale[1] : mesh->uv_scale[1];
+        f->scale[1] = vec3_dot(f->cross, f->unit) * e.det < 0.0 ? -mesh->uv_scale[1] : mesh->uv_scale[1];
     }
     frame_along(f->unit, x, f->x, f->y);
     f->has_frame = 1;
@@ -265,8 +265,8 @@ static int rates_on_facet(knurl_facet *f, const double velocity[3], double rates
         return 0;
     }
     if (KNURL_UNLIKELY(!f->has_gradients)) {
-        find_gradient(f->ab, f->ac, f->normal, f->u1, f->u2, f->scale[0], f->gradients[0]);
-        find_gradient(f->ab, f->ac, f->normal, f->v1, f->v2, f->scale[1], f->gradients[1]);
+        find_gradient(f->ab, f->ac, f->cross, f->u1, f->u2, f->scale[0], f->gradients[0]);
+        find_gradient(f->ab, f->ac, f->cross, f->v1, f->v2, f->scale[1], f->gradients[1]);
         f->has_gradients = 1;
     }
     rates[0] = vec3_dot(f->gradients[0], velocity);

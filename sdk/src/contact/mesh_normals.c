@@ -85,7 +85,7 @@ knurl_result knurl_mesh_pack_normals(knurl_heap *heap, const knurl_mesh_desc *de
 /* How a triangle is felt; BAD: flat, because its normals do not describe a surface. */
 enum { FLAT, CURVED, BAD };
 
-static int folds(const knurl_patch *patch, const double face[3], double area2) {
+static int folds(const knurl_patch *patch, const double face[3], double area_twice) {
     for (int i = 0; i <= 3; i++) {
         for (int k = 0; k <= 3 - i; k++) {
             const double w[3] = {i / 3.0, k / 3.0, (3 - i - k) / 3.0};
@@ -95,7 +95,7 @@ static int folds(const knurl_patch *patch, const double face[3], double area2) {
             vec3_copy(at.point, point);
             knurl_patch_at(patch, w, point, &at); /* its tangents at height 0 */
             vec3_cross(at.tangents[0], at.tangents[1], across);
-            if (!(vec3_dot(across, face) > FOLD_SHARE * area2)) {
+            if (!(vec3_dot(across, face) > FOLD_SHARE * area_twice)) {
                 return 1;
             }
         }
@@ -110,7 +110,7 @@ static int judge(const double corners[3][3], const double normals[3][3], double 
     vec3_sub(corners[1], corners[0], ab);
     vec3_sub(corners[2], corners[0], ac);
     vec3_cross(ab, ac, face);
-    const double area2 = vec3_normalise(face);
+    const double area_twice = vec3_normalise(face);
     knurl_patch_set(corners, normals, &patch);
     *height = 0.0;
     for (int i = 0; i < 3; i++) {
@@ -122,7 +122,7 @@ static int judge(const double corners[3][3], const double normals[3][3], double 
     if (least >= FLAT_COSINE && *height <= FLAT_HEIGHT) {
         return FLAT;
     }
-    return least >= FOLD_COSINE || (least >= BAD_COSINE && !folds(&patch, face, area2)) ? CURVED : BAD;
+    return least >= FOLD_COSINE || (least >= BAD_COSINE && !folds(&patch, face, area_twice)) ? CURVED : BAD;
 }
 
 void knurl_mesh_settle_normals(knurl_heap *heap, knurl_mesh *mesh) {

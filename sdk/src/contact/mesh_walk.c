@@ -102,11 +102,11 @@ static int shares_feature(const knurl_mesh *mesh, uint32_t corner, const knurl_c
 /* Score of a triangle as the continuation of another: 1 to 3, by the angle between the two, if p is behind it; else
  * minus its squared distance. -HUGE_VAL for an inner wall that p is just crossing. */
 static double continues(const knurl_closest_point *from, const knurl_closest_point *to, int32_t side) {
-    const double along = vec3_dot(to->normal, to->offset) * side;
-    if (along * along <= KNURL_ON_SURFACE * KNURL_ON_SURFACE * to->area2) {
+    const double along = vec3_dot(to->cross, to->offset) * side;
+    if (along * along <= KNURL_ON_SURFACE * KNURL_ON_SURFACE * to->cross2) {
         return -HUGE_VAL;
     }
-    return along < 0.0 ? 2.0 + vec3_dot(to->normal, from->normal) / sqrt(to->area2 * from->area2) : -to->distance2;
+    return along < 0.0 ? 2.0 + vec3_dot(to->cross, from->cross) / sqrt(to->cross2 * from->cross2) : -to->distance2;
 }
 
 /* Finds the listed corners of a non-manifold vertex; returns their number, at most MAX_SIDE. */
@@ -273,7 +273,7 @@ static int add_round(side_sums *sums, int weigh) {
  * a valley of a curved surface, whose facets meet at small angles, it hardly is. Testing only the point's own face
  * would not do: p moves straight away from a groove's wall. */
 static int is_caught(const walk *w, const knurl_closest_point *closest) {
-    if (closest->feature == 7 || vec3_dot(closest->offset, closest->normal) * w->side > 0.0) {
+    if (closest->feature == 7 || vec3_dot(closest->offset, closest->cross) * w->side > 0.0) {
         return 0;
     }
     side_sums sums = {w->mesh, closest, w->visits, 0, 0, 0, 0.0, {0.0, 0.0, 0.0}};
@@ -380,7 +380,7 @@ int knurl_mesh_side(const knurl_mesh *mesh, const knurl_closest_point *closest, 
                     double mean[3]) {
     mean[0] = mean[1] = mean[2] = 0.0;
     if (closest->feature == 7) {
-        const double along = vec3_dot(closest->offset, closest->normal);
+        const double along = vec3_dot(closest->offset, closest->cross);
         *boundary = 0;
         return (along > 0.0) - (along < 0.0);
     }
@@ -393,7 +393,7 @@ int knurl_mesh_side(const knurl_mesh *mesh, const knurl_closest_point *closest, 
         return sums.weighted < 0.0 ? -1 : 1;
     }
     if (!sums.front && !sums.back) { /* no visits left: use the point's own face */
-        const double along = vec3_dot(closest->offset, closest->normal);
+        const double along = vec3_dot(closest->offset, closest->cross);
         return (along > 0.0) - (along < 0.0);
     }
     return sums.front - sums.back;

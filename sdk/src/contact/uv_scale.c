@@ -12,7 +12,7 @@
 
 /* A triangle whose uvs have an area: twice its own area, and |dP/du| and |dP/dv|. */
 typedef struct uv_triangle {
-    double area2;
+    double area_twice;
     double lengths[2];
 } uv_triangle;
 
@@ -46,14 +46,14 @@ static double find_scale(const uv_triangle *list, uint32_t count, int k) {
     double areas[BINS] = {0.0};
     double area = 0.0, sum = 0.0;
     for (uint32_t i = 0; i < count; i++) {
-        areas[bin_of(list[i].lengths[k])] += list[i].area2;
+        areas[bin_of(list[i].lengths[k])] += list[i].area_twice;
     }
     const int last = find_window(areas);
     for (uint32_t i = 0; i < count; i++) {
         const int bin = bin_of(list[i].lengths[k]);
         if (bin <= last && bin > last - WINDOW) {
-            area += list[i].area2;
-            sum += list[i].area2 * list[i].lengths[k];
+            area += list[i].area_twice;
+            sum += list[i].area_twice * list[i].lengths[k];
         }
     }
     return sum / area;
@@ -64,8 +64,8 @@ static void find_stretch(const uv_triangle *list, uint32_t count, int k, double 
     double area = 0.0, inverse = 0.0, shortest = HUGE_VAL, longest = 0.0;
     for (uint32_t i = 0; i < count; i++) {
         const double length = list[i].lengths[k];
-        area += list[i].area2;
-        inverse += list[i].area2 / length;
+        area += list[i].area_twice;
+        inverse += list[i].area_twice / length;
         shortest = fmin(shortest, length);
         longest = fmax(longest, length);
     }
@@ -81,7 +81,7 @@ static double find_even(const uv_triangle *list, uint32_t count, const double sc
         const double *l = list[i].lengths;
         const int is_even =
             scale[0] <= 2.0 * l[0] && 2.0 * scale[0] >= l[0] && scale[1] <= 2.0 * l[1] && 2.0 * scale[1] >= l[1];
-        even += is_even ? list[i].area2 : 0.0;
+        even += is_even ? list[i].area_twice : 0.0;
     }
     return even;
 }
@@ -122,7 +122,7 @@ knurl_result knurl_mesh_measure_uvs(knurl_heap *heap, knurl_mesh *mesh) {
         knurl_mesh_triangle(mesh, i, &t);
         area += t.area_twice;
         if (knurl_mesh_uv_frame(mesh, i, du, dv)) {
-            list[count].area2 = t.area_twice;
+            list[count].area_twice = t.area_twice;
             list[count].lengths[0] = vec3_length(du);
             list[count++].lengths[1] = vec3_length(dv);
         }
