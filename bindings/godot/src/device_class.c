@@ -1,5 +1,6 @@
 /* KnurlDevice as the engine sees it: properties, methods, signals. SPDX-License-Identifier: MIT */
 #include "device.h"
+#include "device_state.h"
 #include "explain.h"
 #include "ray.h"
 #include "signals.h"
@@ -182,107 +183,6 @@ static void notify(void *self, int32_t what) {
     }
 }
 
-/* All zeros while nothing runs. */
-static knurl_session_state look(const device *d) {
-    knurl_session_state state;
-    memset(&state, 0, sizeof state);
-    if (d->runs) {
-        knurl_session_get_state(d->session, &state);
-    }
-    return state;
-}
-
-static void give_vector(const double *from, void *to) {
-    const float vector[3] = {(float)from[0], (float)from[1], (float)from[2]};
-    memcpy(to, vector, sizeof vector);
-}
-
-/* Before the first tick, the HIP is at the workspace's origin. */
-static void get_hip_position(void *self, void *value) {
-    const device *d = self;
-    const knurl_session_state state = look(d);
-    give_vector(state.ticks > 0 ? state.hip : d->workspace.origin, value);
-}
-
-static void get_proxy_position(void *self, void *value) {
-    const device *d = self;
-    const knurl_session_state state = look(d);
-    give_vector(state.ticks > 0 ? state.proxy : d->workspace.origin, value);
-}
-
-static void get_force(void *self, void *value) {
-    const knurl_session_state state = look(self);
-    give_vector(state.force, value);
-}
-
-static void get_running(void *self, void *value) {
-    const device *d = self;
-    *(uint8_t *)value = d->runs && !d->is_leaving;
-}
-
-static void get_in_contact(void *self, void *value) {
-    *(uint8_t *)value = look(self).in_contact != 0;
-}
-
-static void get_temporal_frequency(void *self, void *value) {
-    *(double *)value = look(self).temporal_frequency;
-}
-
-static void get_height(void *self, void *value) {
-    *(double *)value = look(self).height;
-}
-
-static void get_velocity(void *self, void *value) {
-    const knurl_session_state state = look(self);
-    give_vector(state.velocity, value);
-}
-
-static void get_depth(void *self, void *value) {
-    *(double *)value = look(self).depth;
-}
-
-static void get_buttons(void *self, void *value) {
-    *(int64_t *)value = (int64_t)look(self).buttons;
-}
-
-/* The identity if the device does not measure it. */
-static void get_stylus_rotation(void *self, void *value) {
-    const knurl_session_state state = look(self);
-    const double *q = state.stylus;
-    const int is_measured = q[0] != 0.0 || q[1] != 0.0 || q[2] != 0.0 || q[3] != 0.0;
-    float rotation[4] = {0.0F, 0.0F, 0.0F, 1.0F};
-    for (int i = 0; i < 4 && is_measured; i++) {
-        rotation[i] = (float)q[i];
-    }
-    memcpy(value, rotation, sizeof rotation);
-}
-
-static void get_touched(void *self, const void *const *arguments, void *result) {
-    const device *d = self;
-    (void)arguments;
-    const surface *s = surface_of(d->touched_node);
-    const GDExtensionObjectPtr object = s ? s->base.object : NULL;
-    memcpy(result, &object, sizeof object);
-}
-
-static void get_device_name(void *self, void *value) {
-    const device *d = self;
-    knurl_device_info info;
-    knurl_device_info_init(&info, sizeof info);
-    if (d->runs) {
-        (void)knurl_device_get_info(knurl_session_get_device(d->session), &info);
-    }
-    gd_string_set(value, info.name);
-}
-
-static void get_ticks(void *self, void *value) {
-    *(int64_t *)value = (int64_t)look(self).ticks;
-}
-
-static void get_overruns(void *self, void *value) {
-    *(int64_t *)value = (int64_t)look(self).overruns;
-}
-
 static void start(void *self, const void *const *arguments, void *result) {
     (void)arguments;
     *(int64_t *)result = device_start(self);
@@ -413,27 +313,27 @@ static const gd_property properties[] = {
     {"retry", FLOAT, offsetof(device, retry), 0.0, 60.0, 0.1, "or_greater,suffix:s", 0, NULL, NULL, NULL},
     {.name = "reconnect", .type = BOOL, .offset = offsetof(device, reconnect)},
     {.name = "State"}, /* of a running game */
-    {.name = "hip_position", .type = VECTOR3, .get = get_hip_position},
-    {.name = "proxy_position", .type = VECTOR3, .get = get_proxy_position},
-    {.name = "force", .type = VECTOR3, .get = get_force},
-    {.name = "running", .type = BOOL, .get = get_running},
-    {.name = "in_contact", .type = BOOL, .get = get_in_contact},
-    {.name = "velocity", .type = VECTOR3, .get = get_velocity},
-    {.name = "depth", .type = FLOAT, .get = get_depth},
-    {.name = "buttons", .type = INT, .get = get_buttons},
-    {.name = "stylus_rotation", .type = GDEXTENSION_VARIANT_TYPE_QUATERNION, .get = get_stylus_rotation},
-    {.name = "temporal_frequency", .type = FLOAT, .get = get_temporal_frequency},
-    {.name = "height", .type = FLOAT, .get = get_height},
-    {.name = "device_name", .type = STRING, .get = get_device_name},
-    {.name = "ticks", .type = INT, .get = get_ticks},
-    {.name = "overruns", .type = INT, .get = get_overruns},
+    {.name = "hip_position", .type = VECTOR3, .get = device_get_hip_position},
+    {.name = "proxy_position", .type = VECTOR3, .get = device_get_proxy_position},
+    {.name = "force", .type = VECTOR3, .get = device_get_force},
+    {.name = "running", .type = BOOL, .get = device_get_running},
+    {.name = "in_contact", .type = BOOL, .get = device_get_in_contact},
+    {.name = "velocity", .type = VECTOR3, .get = device_get_velocity},
+    {.name = "depth", .type = FLOAT, .get = device_get_depth},
+    {.name = "buttons", .type = INT, .get = device_get_buttons},
+    {.name = "stylus_rotation", .type = GDEXTENSION_VARIANT_TYPE_QUATERNION, .get = device_get_stylus_rotation},
+    {.name = "temporal_frequency", .type = FLOAT, .get = device_get_temporal_frequency},
+    {.name = "height", .type = FLOAT, .get = device_get_height},
+    {.name = "device_name", .type = STRING, .get = device_get_device_name},
+    {.name = "ticks", .type = INT, .get = device_get_ticks},
+    {.name = "overruns", .type = INT, .get = device_get_overruns},
 };
 
 static const gd_method_row methods[] = {
     {"get_warnings", GDEXTENSION_VARIANT_TYPE_PACKED_STRING_ARRAY, NULL, get_warnings, 0, {{0}}},
     {"start", INT, "Error", start, 0, {{0}}},
     {"list_devices", GDEXTENSION_VARIANT_TYPE_ARRAY, NULL, status_list, 0, {{0}}},
-    {"get_touched_surface", OBJECT, "KnurlSurface", get_touched, 0, {{0}}},
+    {"get_touched_surface", OBJECT, "KnurlSurface", device_get_touched, 0, {{0}}},
     {"stop", NOTHING, NULL, stop, 0, {{0}}},
     {"move_hip", NOTHING, NULL, move_hip, 1, {{"global_position", VECTOR3, NULL}}},
     {"vibrate",
