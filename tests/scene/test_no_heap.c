@@ -3,6 +3,7 @@
 #define _DEFAULT_SOURCE 1 /* fork(), syscall() */
 
 #include "full_model.h"
+#include "support/own.h"
 #include "support/scenes.h"
 
 #include <pthread.h>
@@ -191,6 +192,8 @@ static void change_materials(knurl_scene *scene, int segment) {
     }
 }
 
+enum { OWN = KNURL_METHOD_BANDLIMITED + 1 }; /* the first that is added */
+
 /* The stroked surfaces: from x = -0.05 to 0.14 m, at about z = 0. */
 static const struct stroked {
     const char *name;
@@ -211,6 +214,7 @@ static const struct stroked {
     {"surfaces that move, friction", add_plane_and_mesh, move_both, KNURL_METHOD_S2, 0, 0.4, 0},
     {"surfaces that come and go", add_plane_and_mesh, add_and_remove, KNURL_METHOD_S2, 0, 0.0, 0},
     {"materials that change", add_plane_and_mesh, change_materials, KNURL_METHOD_S2, 0, 0.0, 0},
+    {"plane and mesh, an own method", add_plane_and_mesh, NULL, OWN, 0, 0.0, 0},
     {"tiles", add_tiles, NULL, KNURL_METHOD_S2, 0, 0.0, 100},
     {"tiles, friction", add_tiles, NULL, KNURL_METHOD_S1, 0, 0.4, 100},
     {"tiles, every one looked at in every tick", add_tiles, NULL, KNURL_METHOD_S2, KNURL_FULL_SEARCH, 0.0, 100},
@@ -225,6 +229,7 @@ static knurl_scene *make_scene(const struct stroked *what) {
     knurl_scene_desc_init(&desc, sizeof desc);
     assert_int_equal(knurl_scene_create(&desc, &scene), KNURL_OK);
     set_full_model(scene, what->full_model);
+    assert_int_equal(own_add("copy-of-S1", 1.0, own_s1, NULL), OWN);
     what->add(scene, what->method, what->friction);
     knurl_workspace_set_identity(&workspace);
     knurl_hip_desc_init(&hip, sizeof hip);
