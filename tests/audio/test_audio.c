@@ -81,7 +81,7 @@ TEST(a_line_grating_sounds_at_f_t_and_its_odd_harmonics) {
     }
 }
 
-TEST(what_is_no_harmonic_is_60_db_lower) {
+TEST(inharmonic_parts_are_60_db_lower) {
     static const double frequencies[] = {70.0, 250.0, 470.0, 990.0, 2410.0, 4870.0};
     static float window[WINDOW];
     for (size_t i = 0; i < COUNT_OF(frequencies); i++) {

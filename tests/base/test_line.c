@@ -13,7 +13,7 @@ static void check_line(const char *from, const char *expected) {
     assert_int_equal(length, strlen(expected));
 }
 
-TEST(what_is_harmless_stays) {
+TEST(harmless_characters_stay) {
     check_line("", "");
     check_line("Gr\xC3\xB6\xC3\x9F"
                "e \xE8\xA7\xA6 \xF0\x9F\x98\x80",
@@ -57,7 +57,7 @@ TEST(bytes_that_are_no_utf8_become_question_marks) {
     check_line("\xE2", "?");
 }
 
-TEST(what_does_not_fit_is_cut_between_characters) {
+TEST(a_long_text_is_cut_between_characters) {
     char line[5];
     assert_int_equal(knurl_text_line(line, sizeof line, "abc\xC3\xA4"), 3);
     assert_string_equal(line, "abc");

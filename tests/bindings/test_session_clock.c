@@ -113,7 +113,7 @@ static int play_steps(int32_t method, double fps, double rate, double unsteady) 
     return check_gaps(&r, unsteady > 0.0 ? "unsteady" : "steady", fps, rate);
 }
 
-TEST(what_physics_moves_is_felt_evenly_at_any_pair_of_rates) {
+TEST(surfaces_moved_by_physics_are_felt_evenly_at_any_pair_of_rates) {
     int failed = 0;
     for (size_t i = 0; i < COUNT(frame_rates) * COUNT(step_rates); i++) {
         failed +=
@@ -140,7 +140,7 @@ TEST(so_it_is_with_the_default_method) {
 }
 
 /* A script moves objects by each frame's length, and frames have uneven lengths. */
-TEST(what_frames_move_is_felt_evenly) {
+TEST(surfaces_moved_by_frames_are_felt_evenly) {
     int failed = 0;
     for (size_t i = 0; i < COUNT(frame_rates); i++) {
         rig r;
@@ -159,7 +159,7 @@ TEST(what_frames_move_is_felt_evenly) {
 }
 
 /* A body that sleeps for two of three steps. */
-TEST(what_moves_more_seldom_than_its_clock_is_felt_evenly) {
+TEST(surfaces_that_move_less_often_than_their_clock_are_felt_evenly) {
     rig r;
     set_up(&r, KNURL_METHOD_S1, KNURL_SESSION_STEPS);
     for (int steps = 1; (double)steps / 60.0 < WARM_UP_S + MEASURED_S; steps++) {

@@ -134,7 +134,7 @@ TEST(a_touch_of_what_is_gone_by_now_is_not_told) {
     knurl_session_destroy(t.s);
 }
 
-TEST(each_start_has_its_end_however_long_nobody_asked) {
+TEST(each_start_has_its_end_even_if_fetched_late) {
     three t;
     knurl_session_event event;
     knurl_surface_id touched = 0;

@@ -10,7 +10,7 @@ static knurl_surface_id add_at(knurl_session *s, double x, double stiffness) {
     return add_surface(knurl_session_get_scene(s), &parts);
 }
 
-TEST(what_can_be_felt_needs_no_words) {
+TEST(a_surface_that_can_be_felt_needs_no_explanation) {
     const knurl_session_desc desc = describe("fake", "");
     char text[64] = "?";
     SCOPED_SESSION *s = make_session();
@@ -27,7 +27,7 @@ TEST(what_can_be_felt_needs_no_words) {
 }
 
 /* The fake device is 0.16 m wide, a plate 0.1 m: they meet up to 0.13 m. */
-TEST(what_lies_out_of_reach_is_said_to) {
+TEST(a_surface_out_of_reach_is_reported) {
     const double cases[][2] = {{0.129, 1.0}, {0.131, 1.0}, {-0.131, 1.0}, {0.20, 2.0}, {0.211, 2.0}};
     const int far[] = {0, 1, 1, 0, 1};
     for (size_t i = 0; i < COUNT_OF(cases); i++) {
@@ -103,7 +103,7 @@ TEST(they_are_cut_off_between_characters) {
     }
 }
 
-TEST(what_is_no_text_at_all_is_cut_off_too) {
+TEST(invalid_utf_8_is_cut_off_too) {
     for (uint32_t size = 1; size < 16; size++) {
         char text[16] = "";
         knurl_session_add_line(text, size, "%s",

@@ -130,7 +130,7 @@ TEST(a_scale_that_changes_with_the_clutch_leaves_the_hip) {
     CHECK_VECTOR(state_of(s).hip, 0.03, 0.0, -0.005, 1e-9);
 }
 
-TEST(a_scale_that_is_none_is_refused) {
+TEST(an_invalid_scale_is_refused) {
     SCOPED_SESSION *s = pressed();
     const knurl_workspace to = at(0.0, 0.0, 0.0);
     assert_int_equal(knurl_session_move_workspace(s, KNURL_SESSION_FRAMES, &to), KNURL_ERROR_ARGUMENT);
@@ -155,7 +155,7 @@ TEST(a_clutch_lets_the_hand_go_back_while_the_hip_stays) {
 }
 
 /* A quarter turn about z of the node: the clutch's offset of the workspace turns with it. */
-TEST(what_a_clutch_has_moved_goes_with_the_node) {
+TEST(the_clutchs_offset_moves_with_the_node) {
     static const double quarter[9] = {0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0};
     knurl_workspace to = at(0.0, 0.0, 1.0);
     SCOPED_SESSION *s = pressed();

@@ -100,7 +100,7 @@ TEST(nothing_is_opened_or_started_twice) {
     assert_true(knurl_session_get_loop(s) == loop && state_of(s).running);
 }
 
-TEST(what_cannot_be_opened_is_named_and_leaves_it_closed) {
+TEST(a_device_that_cannot_be_opened_is_named_and_leaves_it_closed) {
     const double nan = NAN;
     const knurl_session_desc good = describe("fake", "");
     knurl_session_desc bad[10];
@@ -327,7 +327,7 @@ int main(void) {
 }
 
 /* A host may give a session's scene and device to a loop of its own, and finalise that last. */
-TEST(what_a_loop_of_the_hosts_still_uses_outlives_the_session) {
+TEST(objects_in_use_by_the_hosts_loop_outlive_the_session) {
     static const double there[3] = {0.0, 0.0, -0.001};
     for (int turn = 0; turn < 20; turn++) {
         knurl_loop_desc desc;

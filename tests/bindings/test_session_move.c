@@ -72,7 +72,7 @@ TEST(two_moves_of_a_tick_are_a_place) {
 }
 
 /* 10 m/s over a sixtieth: 0.1667 m. The plate reaches 0.05 m: dragged, it is still under the finger a tick later. */
-TEST(what_moves_faster_than_10_m_per_s_leaps) {
+TEST(surfaces_faster_than_10_m_per_s_jump) {
     rig r;
     set_up(&r, 200);
     move_to(&r, 0.166, 0.0);
@@ -126,7 +126,7 @@ TEST(a_move_that_is_refused_leaves_the_way) {
     knurl_session_destroy(r.s);
 }
 
-TEST(what_moves_while_nothing_runs_is_put_there) {
+TEST(surfaces_moved_while_stopped_are_placed_at_once) {
     const knurl_session_desc desc = describe("fake", "");
     rig r;
     memset(&r, 0, sizeof r);

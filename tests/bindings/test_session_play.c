@@ -133,7 +133,7 @@ TEST(a_device_that_gets_lost_plays_fewer_ticks) {
     assert_int_equal(played, 100);
 }
 
-TEST(what_cannot_be_played_is_refused) {
+TEST(an_unplayable_grating_is_refused) {
     const double descending[8] = {0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0};
     const double nan[4] = {0.0, NAN, 0.0, 0.0};
     const knurl_session_desc fake = describe("fake", "");

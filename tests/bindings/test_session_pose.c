@@ -105,7 +105,7 @@ TEST(a_rotation_in_floats_leaves_exactly_nothing) {
     }
 }
 
-TEST(what_has_no_volume_or_is_no_number_leaves_the_pose_as_it_was) {
+TEST(a_flat_or_non_finite_transform_leaves_the_pose_unchanged) {
     static const double x[3] = {1, 0, 0};
     static const double y[3] = {0, 1, 0};
     static const double z[3] = {0, 0, 1};

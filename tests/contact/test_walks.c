@@ -252,7 +252,7 @@ TEST(strokes_on_the_moon_never_lose_contact) {
 /* The same strokes on the same waves in 1k and in 100k triangles: the depths differ by how far the coarse facets lie
  * off the waves (the chord's sagitta: at most h^2/8 times the sum of the curvatures along and across), times the worst
  * of their slopes' effect on a distance, 1. */
-TEST(what_is_felt_does_not_depend_on_the_tessellation) {
+TEST(the_force_does_not_depend_on_the_tessellation) {
     const uint32_t coarse_n = 66;
     const double h = 0.2 / coarse_n;
     const double kx = 0.003 * pow(2.0 * PI / 0.03, 2.0);

@@ -67,7 +67,7 @@ TEST(even_periods_alone_leave_no_haptic_gap_up_to_230_hz) {
 
 /* 333.3 Hz x 1.38 = 460 Hz; the printed 461 is 1.383 of it. 230 and 461 as printed, rounded, are one Weber fraction:
  * 0.3815 to 0.3830. */
-TEST(odd_periods_too_leave_none_up_to_460_hz_and_461_with_0_383) {
+TEST(odd_periods_leave_no_gap_up_to_460_hz_and_461_hz_with_0_383) {
     for (size_t i = 0; i < COUNT_OF(rates); i++) {
         const double scale = rates[i] / 1000.0;
         CHECK_CLOSE(no_gap_up_to(rates[i], STUDY_SET_ODD, 0.38), 460.0 * scale, 1e-9);

@@ -103,7 +103,7 @@ TEST(a_hand_that_cannot_hold_still_ends_the_session) {
     check_failed(&p, 1, "left the sphere");
 }
 
-TEST(what_people_answered_is_never_written_over) {
+TEST(answers_are_never_overwritten) {
     const char *path = tool_path("people.csv");
     write_text(path, HEADER GOOD);
     process p = RUN("3", "--fast", "--out", path);
@@ -178,7 +178,7 @@ TEST(the_analysis_knows_whom_each_rule_prefers) {
     (void)remove(path);
 }
 
-TEST(what_is_no_record_is_refused_with_its_line) {
+TEST(an_invalid_record_is_refused_with_its_line) {
     static const struct {
         const char *text, *word;
     } bad[] = {

@@ -18,7 +18,7 @@ static steady_metrics measure(double hz, double size, double other_hz, double ot
     return found;
 }
 
-TEST(what_pushes_is_the_mean_over_whole_cycles) {
+TEST(the_push_is_the_mean_over_whole_cycles) {
     CHECK_CLOSE(measure(100.0, 1.0, 30.0, 0.0, 0.07).push, 0.07, 1e-9);
     CHECK_CLOSE(measure(100.0, 1.0, 30.0, 0.0, -0.07).push, 0.07, 1e-9);
     CHECK_CLOSE(measure(100.0, 1.0, 30.0, 0.0, 0.0).push, 0.0, 1e-9);
@@ -29,7 +29,7 @@ TEST(the_level_is_that_of_the_line) {
 }
 
 /* Hann's window attenuates a line with the cube of its distance: 137 bins here. */
-TEST(what_stays_is_the_mean_wherever_the_last_cycle_is_cut) {
+TEST(the_mean_does_not_depend_on_the_last_cycles_cut) {
     CHECK_CLOSE(measure(137.37, 1.0, 30.0, 0.0, -0.07).mean, 0.07, 1e-6);
     CHECK_CLOSE(measure(137.37, 1.0, 30.0, 0.0, 0.0).mean, 0.0, 1e-6);
 }
@@ -55,7 +55,7 @@ TEST(a_tone_is_false_that_is_more_than_5_percent_and_4_hz_away) {
 
 /* 700 N/m less 45 g at the circular frequency's square, 5.5 N s/m: at 20 Hz 19.7 N/m are left of the first, 691 of the
  * second. 250 Hz: 110334 and 8639; the threshold is 1 there, 6.25^2 at 20 Hz and 4 at 500 Hz. */
-TEST(what_is_felt_is_the_motion_over_the_threshold) {
+TEST(the_felt_strength_is_the_motion_over_the_threshold) {
     CHECK_CLOSE(steady_felt_weight(250.0), 1.0 / hypot(110333.05, 8639.38), 1e-10);
     CHECK_CLOSE(steady_felt_weight(20.0), 1.0 / hypot(-10.612, 691.15) / 39.0625, 1e-7);
     CHECK_CLOSE(steady_felt_weight(500.0), 1.0 / hypot(443432.2, 17278.8) / 4.0, 1e-10);

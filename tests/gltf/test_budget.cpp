@@ -47,7 +47,7 @@ TEST(each_limit_is_told_by_its_name) {
     assert_limit(budget, "options.max_seconds: expected at most");
 }
 
-TEST(what_just_fits_loads) {
+TEST(a_file_at_the_limit_loads) {
     knurl_gltf_options budget = empty_budget();
     budget.max_surfaces = 3;
     budget.max_vertices = 24;

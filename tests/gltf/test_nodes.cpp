@@ -110,7 +110,7 @@ TEST(bad_transforms_name_the_node) {
     fails(R"("translation":[0,"x",0])", {"node 'N' (0): translation: expected an array of 3 numbers, found 'x'"});
 }
 
-TEST(a_bad_transform_of_an_untagged_node_is_nobodys_concern) {
+TEST(a_bad_transform_of_an_untagged_node_is_ignored) {
     File file = triangle();
     file.nodes += R"(,{"scale":[0,0,0]},{"matrix":[1]})";
     assert_int_equal(Loaded(file.glb()).report.surfaces, 1);

@@ -135,7 +135,7 @@ TEST(a_tag_that_is_wrong_can_be_removed) {
         assert_int_equal(Loaded(tagged(quad_with(extras).glb(), nullptr)).report.skipped, 1);
 }
 
-TEST(what_is_refused_writes_nothing) {
+TEST(a_refused_edit_writes_nothing) {
     const std::string file = awkward_file().glb();
     const char *object = "material 'a \"{[\\' (0): ";
     assert_refused(file, "lights", 0, "{}", KNURL_ERROR_ARGUMENT,

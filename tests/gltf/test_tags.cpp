@@ -151,7 +151,7 @@ TEST(form_of_the_tag_is_checked) {
                      {"material 'bars' (0): extras: holds both", "'knurl_amplitude'"});
 }
 
-TEST(what_is_missing_after_merging_is_named) {
+TEST(keys_missing_after_merging_are_named) {
     File file = quad_with(R"({"knurl":{"version":1,"spatial_frequency":1000,"amplitude":0.001}})");
     file.nodes = R"({"mesh":0,"name":"plate"})";
     assert_fails(file.glb(), KNURL_ERROR_FORMAT,

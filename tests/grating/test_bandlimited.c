@@ -147,7 +147,7 @@ TEST(on_a_grid_the_phase_moves_on_by_the_cycles_of_the_axis_that_crosses_the_mos
 }
 
 /* From +-x to +-y in the middle of a cycle: played on as on a line that never turned. */
-TEST(where_the_other_axis_takes_over_the_wave_goes_on) {
+TEST(the_wave_continues_when_the_other_axis_takes_over) {
     const double step = 0.03; /* cycles a tick */
     for (int signs = 0; signs < 4; signs++) {
         const double x = signs & 1 ? -1.0 : 1.0, y = signs & 2 ? -1.0 : 1.0;
@@ -171,7 +171,7 @@ TEST(events_count_the_ridges_begun) {
     assert_true(s.out.event == 99);
 }
 
-TEST(numbers_that_are_none_leave_a_finite_height) {
+TEST(non_finite_inputs_leave_a_finite_height) {
     static const double odd[] = {0.0, -0.0, 1e-308, 1e308, -1e308, 1e18, INFINITY, NAN};
     for (size_t i = 0; i < COUNT_OF(odd) * COUNT_OF(odd); i++) {
         band_scan s = band_on(FS, 500.0, RATE, 0.055e-3);

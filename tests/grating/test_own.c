@@ -96,7 +96,7 @@ static double say(const knurl_method_input *in, double *memory, void *user) KNUR
     return *(const double *)user;
 }
 
-TEST(whatever_it_returns_the_height_is_within_its_crest_and_faults_are_counted) {
+TEST(any_result_is_limited_to_its_crest_and_faults_are_counted) {
     static double said;
     static const struct {
         double said, played;
@@ -166,7 +166,7 @@ TEST(another_method_after_it_is_not_disturbed_by_its_memory) {
 
 /* --- refusals --- */
 
-TEST(what_is_wrong_is_refused_by_name_and_nothing_is_added) {
+TEST(invalid_arguments_are_refused_by_name_and_nothing_is_added) {
     static double zero;
     static const char *const names[] = {
         "", "two words", "a\"b", "S2", "bandlimited", "say", "12345678901234567890123456789012", "caf\xc3\xa9"};

@@ -146,7 +146,7 @@ static knurl_result load_large(void) {
 }
 
 /* As `ulimit -v` does it: here the C library's own memory and the stack are short, too. */
-TEST(a_load_ends_in_order_whatever_address_space_is_left) {
+TEST(a_load_ends_in_order_with_any_address_space_left) {
     static const char begin[] = "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{}";
     static const char node[] = ",{\"name\":\"n\",\"children\":[]}";
     const size_t nodes = 32000;

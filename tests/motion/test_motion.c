@@ -124,7 +124,7 @@ TEST(foaw_matches_brute_force_between_counts) {
     compare_with_brute_force(walk, SAMPLES, 1.0 / 16384.0, 1000.0, 2);
 }
 
-TEST(foaw_takes_a_sample_one_count_off_the_line_and_none_further) {
+TEST(foaw_accepts_a_sample_up_to_one_count_off_the_line) {
     /* half a count beyond the held value: 0, 2048, 2048, whose middle is exactly one count away; 0, 1025, 0 */
     static const int64_t on[] = {0, 2560, 2560};
     static const int64_t off[] = {0, 1537, -512};
@@ -209,7 +209,7 @@ TEST(foaw_lags_half_the_widest_window_that_a_gain_of_speed_allows) {
     }
 }
 
-TEST(foaw_takes_a_window_of_time_whatever_the_rate) {
+TEST(foaws_window_is_a_time_at_any_rate) {
     /* the same motion, every tenth tick of 10 kHz being one of 1 kHz: the same velocity there */
     knurl_velocity fast = make_velocity(KNURL_VELOCITY_FOAW, QUANTUM, 10000.0);
     knurl_velocity slow = make_velocity(KNURL_VELOCITY_FOAW, QUANTUM, 1000.0);

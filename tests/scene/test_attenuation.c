@@ -56,7 +56,7 @@ TEST(the_share_that_is_asked_for_is_sent_and_told) {
     }
 }
 
-TEST(what_is_no_share_sends_nothing) {
+TEST(an_invalid_share_sends_nothing) {
     static const double wrong[] = {-1e-9, -1.0,        1.0 + 1e-9,       2.0,
                                    1e300, (double)NAN, (double)INFINITY, -(double)INFINITY};
     for (size_t i = 0; i < COUNT_OF(wrong); i++) {
@@ -69,7 +69,7 @@ TEST(what_is_no_share_sends_nothing) {
 }
 
 /* theta' = ((F/0.88 N)^2 - theta)/60 s. */
-TEST(what_is_not_sent_warms_no_motor) {
+TEST(unsent_force_warms_no_motor) {
     SCOPED_SCENE *scene = wall(KNURL_PROTECT_ALL & ~KNURL_PROTECT_HEAT);
     for (int i = 0; i < 5000; i++) {
         (void)tick(scene, -0.005, 0.5, 0); /* 1 N of 2 */
@@ -122,7 +122,7 @@ TEST(a_wall_that_was_not_felt_comes_back_as_after_an_entry) {
     }
 }
 
-TEST(what_is_not_finite_is_found_however_little_is_sent) {
+TEST(a_non_finite_force_is_found_at_any_share) {
     static const double shares[] = {0.0, 0.5, 1.0};
     for (size_t i = 0; i < COUNT_OF(shares); i++) {
         SCOPED_SCENE *scene = wall(KNURL_PROTECT_ALL);

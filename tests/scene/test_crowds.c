@@ -168,7 +168,7 @@ static uint32_t cross_crack(double crack, int ticks, uint32_t held) {
 }
 
 /* Each reaches 0.1 um beyond its edges. */
-TEST(a_crack_that_rounding_leaves_between_two_surfaces_is_none) {
+TEST(a_crack_from_rounding_between_two_surfaces_is_closed) {
     for (int ticks = 0; ticks <= 10; ticks++) {
         assert_int_equal(cross_crack(1e-7, ticks, 1), 1);
     }

@@ -127,7 +127,7 @@ static knurl_surface_check check_of(surface_parts *parts, knurl_surface_info *in
     return check;
 }
 
-TEST(across_an_axis_nothing_is_stretched_whatever_the_uvs) {
+TEST(across_an_axis_nothing_is_stretched_with_any_uvs) {
     SCOPED_SHAPE s = uneven_sheet(8.0);
     surface_parts parts = surface_mesh(&s);
     knurl_surface_info info;

@@ -338,7 +338,7 @@ TEST(surface_that_slides_drags_a_resting_hip) {
     }
 }
 
-TEST(surface_that_goes_with_the_hip_pulls_no_way) {
+TEST(a_surface_that_moves_with_the_hip_has_no_friction) {
     surface_parts parts = rough_plane(MU);
     SCOPED_SCENE *scene = pressed(&parts, DEPTH);
     const double end[3] = {0.05, 0.02, 0.01};

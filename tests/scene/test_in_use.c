@@ -111,7 +111,7 @@ TEST(of_two_threads_that_make_a_loop_of_the_same_at_once_one_does) {
     check_all_gone();
 }
 
-TEST(what_would_change_a_device_or_a_hip_under_its_loop_is_refused) {
+TEST(changes_of_a_device_or_hip_under_its_loop_are_refused) {
     knurl_hip_desc hip;
     knurl_stroke_desc stroke;
     knurl_device *device = NULL;

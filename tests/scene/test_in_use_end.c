@@ -91,7 +91,7 @@ TEST(a_device_with_an_io_thread_likewise) {
     check_order("dsl", IDLE, 1);
 }
 
-TEST(a_closed_device_gets_no_force_any_more_whatever_its_loop_does) {
+TEST(a_closed_device_gets_no_force_from_its_loop) {
     set_up(0);
     start_and_push();
     knurl_device_close(s.device);

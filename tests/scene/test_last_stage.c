@@ -80,7 +80,7 @@ TEST(a_squeeze_ramps_the_fall_that_follows_it_and_no_later_one) {
 }
 
 /* Afterwards it comes back from zero. */
-TEST(without_gain_there_is_no_force_whatever_came_before) {
+TEST(without_gain_there_is_no_force_after_any_force) {
     static const double latest[3] = {0.0, 3.3, 0.0};
     for (int squeezed = 0; squeezed < 3; squeezed++) { /* never, a tick ago, now */
         knurl_last_stage stage = ready(KNURL_PROTECT_ALL, latest);
@@ -95,7 +95,7 @@ TEST(without_gain_there_is_no_force_whatever_came_before) {
     }
 }
 
-TEST(what_is_not_finite_is_told_and_not_taken_as_sent) {
+TEST(a_non_finite_force_is_reported_and_not_taken_as_sent) {
     static const double latest[3] = {0.0, 1.0, 0.0};
     static const double wrong[] = {(double)NAN, (double)INFINITY, -(double)INFINITY};
     static const double gains[] = {1.0, 0.5, 0.0};

@@ -139,7 +139,7 @@ TEST(uvs_of_another_scale_in_a_tenth_of_a_mesh_do_not_change_that_of_the_rest) {
     }
 }
 
-TEST(uvs_of_a_palette_count_as_none_and_are_told_where_a_grating_needs_them) {
+TEST(uvs_of_a_palette_are_ignored_and_reported_if_a_grating_needs_them) {
     static const int32_t methods[] = {KNURL_METHOD_S1, KNURL_METHOD_BANDLIMITED};
     SCOPED_SHAPE s = plate();
     for (uint32_t i = 0; i < s.index_count; i++) { /* one colour for each triangle */
@@ -165,7 +165,7 @@ TEST(uvs_of_a_palette_count_as_none_and_are_told_where_a_grating_needs_them) {
 }
 
 /* A box of which the two sides across an axis alone have uvs: a third of its area. */
-TEST(uvs_on_less_than_half_of_the_area_count_as_none) {
+TEST(uvs_on_less_than_half_of_the_area_are_ignored) {
     for (size_t axis = 0; axis < 3; axis++) {
         SCOPED_SHAPE box = shape_box((const double[3]){0.02, 0.02, 0.02}, 0);
         shape_unweld(&box);

@@ -66,7 +66,7 @@ TEST(sliding_under_a_resting_hip_plays_events) {
     }
 }
 
-TEST(surface_that_goes_with_the_hip_plays_none) {
+TEST(a_surface_that_moves_with_the_hip_plays_no_ridges) {
     surface_parts parts = wide_plane();
     knurl_surface_id id;
     set_grating(&parts, KNURL_METHOD_S2, 1000.0, 500.0, 0.0005);

@@ -84,7 +84,7 @@ TEST(jump_ends_a_way) {
 
 /* --- time --- */
 
-TEST(while_nobody_ticks_the_way_waits) {
+TEST(a_move_waits_for_the_next_tick) {
     surface_parts parts = wide_plane();
     knurl_surface_id id;
     SCOPED_SCENE *scene = stood_on(&parts, &id);

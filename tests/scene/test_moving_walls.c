@@ -139,7 +139,7 @@ static void swing(int kind, uint32_t full_model, uint64_t *seed) {
 }
 
 /* A box that comes along each axis to a HIP that has long stood still there. */
-TEST(what_comes_from_any_side_to_a_hip_at_rest_is_felt) {
+TEST(a_surface_that_reaches_a_resting_hip_from_any_side_is_felt) {
     for (int way = 0; way < 6; way++) {
         const double sign = way % 2 ? -1.0 : 1.0, half[3] = {0.05, 0.05, 0.05}, q[4] = {0.0, 0.0, 0.0, 1.0};
         SCOPED_SHAPE box = shape_box(half, 0);

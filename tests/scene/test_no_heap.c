@@ -304,7 +304,7 @@ static void check_stroke(const knurl_scene *scene, const struct stroked *what, c
     }
 }
 
-TEST(whatever_is_wrapped_is_noticed) {
+TEST(every_wrapped_call_is_noticed) {
     static pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
     const struct timespec none = {0, 0};
     struct timespec now;
@@ -334,7 +334,7 @@ TEST(whatever_is_wrapped_is_noticed) {
     assert_true(calls > before);
 }
 
-TEST(ticks_ask_for_no_memory_and_wait_for_nobody) {
+TEST(ticks_allocate_no_memory_and_never_wait) {
     for (size_t i = 0; i < COUNT_OF(scenes); i++) {
         const struct stroked *what = &scenes[i];
         const uint64_t before_all = calls;

@@ -55,7 +55,7 @@ static double random_height(const knurl_method_input *in, double *memory, void *
 
 static uint64_t random_seed = 11;
 
-TEST(whatever_it_returns_the_force_is_finite_and_within_crest_and_device) {
+TEST(with_any_result_the_force_is_finite_and_within_crest_and_device) {
     const int32_t method = own_add("random", 1.5, random_height, &random_seed);
     surface_parts parts = surface_plane();
     set_grating(&parts, method, FS, 0.0, A);

@@ -299,7 +299,7 @@ TEST(a_ray_ends_where_it_is_told_to_and_meets_a_surface_where_it_is_now) {
     assert_true(found.surface == 0 && found.distance == 0.0);
 }
 
-TEST(what_is_exactly_at_the_radius_is_found) {
+TEST(a_point_exactly_at_the_radius_is_found) {
     static const double above[3] = {0.0, 0.0, 0.25};
     surface_parts parts = surface_plane();
     SCOPED_SCENE *scene = scene_of(&parts);

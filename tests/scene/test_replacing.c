@@ -25,7 +25,7 @@ static void replace(knurl_scene *scene, knurl_surface_id id, surface_parts *part
 }
 
 /* A HIP rests in a surface that is replaced repeatedly: boxes of all sizes, planes, and poses within a millimetre. */
-TEST(what_is_pressed_stays_pressed_whatever_takes_its_place) {
+TEST(a_pressed_surface_stays_pressed_when_replaced) {
     uint64_t seed = 3;
     surface_parts parts = surface_plane();
     SCOPED_SCENE *scene = scene_of(&parts);
@@ -72,7 +72,7 @@ TEST(the_depth_that_was_felt_goes_on) {
     assert_int_equal(out.flags & KNURL_TICK_ENTRY, 0);
 }
 
-TEST(what_it_shrinks_away_from_ends) {
+TEST(contact_ends_when_the_surface_shrinks_away) {
     const double large[3] = {0.05, 0.05, 0.05};
     const double small[3] = {0.01, 0.01, 0.01};
     shape boxes[2] = {shape_box(large, 0), shape_box(small, 0)};
@@ -121,7 +121,7 @@ TEST(it_is_felt_where_it_is_now) {
     }
 }
 
-TEST(what_is_refused_leaves_the_old_one) {
+TEST(a_refused_replacement_leaves_the_old_one) {
     surface_parts parts = surface_plane();
     SCOPED_SCENE *scene = scene_of(&parts);
     const knurl_surface_id id = knurl_scene_get_surface(scene, 0);

@@ -95,7 +95,7 @@ TEST(a_plane_is_double_sided_for_those_that_ask_for_it) {
     }
 }
 
-TEST(what_shape_of_cannot_name_is_refused) {
+TEST(an_invalid_shape_of_is_refused) {
     SCOPED_SHAPE s = shape_sheet(4, 4, (const double[2]){0.1, 0.1}, wave);
     surface_parts parts = surface_mesh(&s);
     parts.desc.axis[0] = 1.0;

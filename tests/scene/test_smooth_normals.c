@@ -215,7 +215,7 @@ TEST(a_moved_smooth_mesh_pushes_likewise) {
 
 /* A rough sheet with any normals, up to 65 degrees off the mean: finite, never a pull, held as by its triangles, and at
  * most the bulge deeper. */
-TEST(whatever_the_normals_the_force_is_bounded) {
+TEST(the_force_is_bounded_with_any_normals) {
     uint64_t seed = 5;
     for (int round = 0; round < 40; round++) {
         const double tilt = 0.03 * round;

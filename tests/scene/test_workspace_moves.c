@@ -129,7 +129,7 @@ TEST(moves_in_a_row_go_on_from_where_the_workspace_is) {
     CHECK_VECTOR(told.origin, 0.0, 0.0, 0.0, 0.0);
 }
 
-TEST(moves_that_are_none_are_refused_with_what_was_expected) {
+TEST(invalid_moves_are_refused_with_the_expected_values) {
     knurl_scene *scene = wall();
     knurl_workspace bad = at(0.0, 0.0, 0.0);
     bad.scale = 0.0;

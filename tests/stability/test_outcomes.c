@@ -48,7 +48,7 @@ TEST(a_wall_below_every_bound_rests_and_gives_nothing_back) {
 }
 
 /* The reference is a linear device on a spring: each odd harmonic of the square wave has its closed form. */
-TEST(what_a_texture_asks_for_is_the_response_of_mass_spring_and_damper) {
+TEST(a_textures_motion_is_the_response_of_mass_spring_and_damper) {
     static const double speeds[] = {0.1, 0.2, 0.25}; /* 50, 100, 125 Hz: whole and even ticks */
     for (size_t i = 0; i < COUNT_OF(speeds); i++) {
         lab_case c;
@@ -196,7 +196,7 @@ TEST(a_run_repeats_bit_for_bit) {
     lab_signals_free(&other);
 }
 
-TEST(a_device_or_method_that_is_none_is_refused_with_the_librarys_message) {
+TEST(an_unknown_device_or_method_is_refused_with_the_librarys_message) {
     lab_result r;
     lab_case c;
     lab_case_init(&c);

@@ -37,7 +37,7 @@ static void check_kept(const char *kept, const char *scene, const char *trace, c
     assert_int_equal(files_that_end(".part"), 0);
 }
 
-TEST(a_run_does_not_replace_its_model_whatever_it_is_called) {
+TEST(a_run_does_not_replace_its_model_under_any_path) {
     char spelled[1100];
     const char *model = tool_path("x.glb");
     copy_file(plate, model);

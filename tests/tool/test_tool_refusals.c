@@ -117,7 +117,7 @@ TEST(a_number_out_of_range_is_told) {
     check_all_wrong(table, COUNT_OF(table));
 }
 
-TEST(a_limit_of_loading_that_is_none_is_told) {
+TEST(an_invalid_limit_of_loading_is_reported) {
     static const char *const limits[] = {"",         "surfaces",   "surfaces=", "surfaces=0",  "surfaces=1.5",
                                          "bytes=-1", "bytes=1e9,", "seconds=0", "seconds=nan", "walls=1"};
     for (size_t i = 0; i < COUNT_OF(limits); i++) {
@@ -156,7 +156,7 @@ TEST(unknown_names_are_told_with_those_that_are_known) {
     check_all_wrong(table, COUNT_OF(table));
 }
 
-TEST(what_is_not_built_yet_fails_with_a_sentence) {
+TEST(an_unavailable_device_fails_with_a_sentence) {
     static const wrong table[] = {
         {"run %P --fast --device touch --out %T/out.csv", 1, "touch"},
         {"run %P --fast --device touch:Left", 1, "touch"},

@@ -294,7 +294,7 @@ TEST(a_lost_device_may_be_looked_for) {
 }
 
 /* 5000 N/m is beyond (0.5 + 2 N s/m)/1.5 ms and the 1020 N/m of a Touch: a line each. A demo's plate is within both. */
-TEST(what_a_device_cannot_do_is_warned_of_and_clamped_on_request) {
+TEST(settings_beyond_the_device_are_warned_of_and_clamped_on_request) {
     static const char tag[] = "{\"knurl\":{\"version\":1,\"spatial_frequency\":[1000,0],\"amplitude\":0.00002,"
                               "\"stiffness\":5000,\"axis\":[1,0,0]}}";
     double forces[2] = {0.0, 0.0};

@@ -30,7 +30,7 @@ TEST(a_line_without_end_is_no_trace) {
     check_says(&p, 1, "line 1: expected at most 65536 bytes");
 }
 
-TEST(a_fifo_that_nobody_writes_to_is_not_waited_for) {
+TEST(a_fifo_without_a_writer_is_not_waited_for) {
     char uri[1200];
     assert_int_equal(mkfifo(tool_path("fifo"), 0600), 0);
     process p = RUN_TOOL("scan", "--method", "S1", "--fs", "1000,0", "--amplitude", "1e-4", "--in", tool_path("fifo"));
@@ -65,7 +65,7 @@ static void write_slow_file(const char *path) {
     assert_int_equal(fclose(file), 0);
 }
 
-TEST(what_loading_may_cost_is_an_option) {
+TEST(the_budget_of_loading_is_an_option) {
     process p = RUN_TOOL("inspect", plate, "--budget", "vertices=11"); /* 4 each of POSITION, NORMAL, TEXCOORD_0 */
     check_says(&p, 1, "options.max_vertices: expected at most 11, found 12");
     p = RUN_TOOL("run", plate, "--fast", "--budget", "triangles=1,seconds=9.5");

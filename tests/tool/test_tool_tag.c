@@ -94,7 +94,7 @@ static void check_refusal_of(const refusal *r) {
     assert_int_equal(files_that_end(".part"), 0);
 }
 
-TEST(what_is_refused_writes_nothing) {
+TEST(a_refused_edit_writes_nothing) {
     static const refusal table[] = {
         {"--list", 2, "expected a .gltf or .glb file"},
         {"%G", 2, "--ridges or a --preset, or else --remove or --list"},

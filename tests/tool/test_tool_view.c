@@ -244,7 +244,7 @@ TEST_WITH(a_stalled_viewer_delays_nobody, serve, end) {
 }
 
 /* libwebsockets has the process ignore it. */
-TEST(what_the_process_does_at_SIGPIPE_stays_as_it_was) {
+TEST(the_processs_handling_of_SIGPIPE_is_unchanged) {
     void (*const was)(int) = signal(SIGPIPE, SIG_DFL);
     (void)serve(state);
     void (*const now)(int) = signal(SIGPIPE, was);

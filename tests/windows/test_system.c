@@ -91,7 +91,7 @@ TEST(a_bare_name_is_not_looked_for_in_the_current_folder) {
     (void)SetCurrentDirectoryA(KNURL_TEST_TMP);
 }
 
-TEST(what_cannot_be_loaded_comes_with_the_systems_sentence_in_one_line) {
+TEST(a_failed_load_has_the_systems_message_in_one_line) {
     static const char *const paths[] = {"C:/none/" NAME, KNURL_TEST_ASSETS "/plate_1d.glb", "bad \xC3\x28.dll"};
     for (size_t i = 0; i < COUNT_OF(paths); i++) {
         char why[256] = "";

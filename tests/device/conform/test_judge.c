@@ -61,7 +61,7 @@ static int only(int promise) {
 
 #define KEPT() assert_int_equal(only(JUDGE_FINITE), 0)
 
-TEST(what_grows_slowly_falls_at_once_and_grows_again_is_kept) {
+TEST(forces_that_grow_slowly_and_fall_at_once_pass) {
     begin();
     grow(5.0);
     tick_of(2.0, 0.0);

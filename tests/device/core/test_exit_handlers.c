@@ -93,7 +93,7 @@ TEST_WITH(a_runtime_that_recovers_from_faults_keeps_its_handler_and_its_forces, 
     }
 }
 
-TEST(a_flag_that_is_none_is_refused) {
+TEST(an_unknown_flag_is_refused) {
     assert_int_equal(knurl_device_zero_on_exit(2), KNURL_ERROR_ARGUMENT);
     check_message("expected 0 or 1, found 2");
 }

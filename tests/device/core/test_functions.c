@@ -10,7 +10,7 @@ static home h; /* reset by each test */
 
 /* --- not blocking --- */
 
-TEST(what_does_not_block_is_read_and_written_here_and_now) {
+TEST(nonblocking_functions_are_called_by_the_tick) {
     SCOPED_DEVICE *device = home_open(&h, 0);
     knurl_device_sample sample;
     const double force[3] = {0.5, -1.0, 2.0};
@@ -91,7 +91,7 @@ TEST(without_a_new_position_the_latest_holds_for_10_ms_and_then_the_device_is_si
     }
 }
 
-TEST(before_its_first_position_there_is_none_to_hold) {
+TEST(no_position_is_held_before_the_first_one) {
     knurl_device_sample sample;
     SCOPED_DEVICE *device = home_open(&h, 0);
     h.read_gives = KNURL_ERROR_DEVICE_NOT_READY;
@@ -103,7 +103,7 @@ TEST(before_its_first_position_there_is_none_to_hold) {
 
 /* --- blocking --- */
 
-TEST(what_blocks_is_read_and_written_in_turn_on_one_other_thread) {
+TEST(blocking_functions_are_called_in_turn_on_another_thread) {
     const double force[3] = {0.5, -1.0, 2.0};
     knurl_device_sample sample;
     knurl_device *device = home_open(&h, 1);
@@ -215,7 +215,7 @@ TEST(a_lost_device_comes_back_only_by_being_reopened) {
     }
 }
 
-TEST(what_cannot_be_reopened_stays_lost) {
+TEST(a_device_that_cannot_be_reopened_stays_lost) {
     SCOPED_DEVICE *device = NULL;
     knurl_device_sample sample;
     memset(&h, 0, sizeof h);
@@ -279,7 +279,7 @@ TEST(a_loop_plays_its_forces_on_it) {
     }
 }
 
-TEST(what_blocks_cannot_be_stepped_and_what_does_not_can) {
+TEST(only_nonblocking_devices_can_be_stepped) {
     for (uint32_t blocking = 0; blocking < 2; blocking++) {
         double wanted = 1.0;
         knurl_loop_desc desc;

@@ -43,7 +43,7 @@ TEST(a_function_that_is_required_and_missing_is_named) {
 }
 
 /* A force is played for 10 ms at most, which must span two ticks. */
-TEST(what_blocks_wants_200_ticks_a_second) {
+TEST(blocking_devices_need_200_ticks_a_second) {
     knurl_device *device = home_open(&h, 1);
     char nothing = 0;
     CHECK_REFUSED(knurl_device_start(device, 199.0), KNURL_ERROR_UNSUPPORTED, nothing);
@@ -77,7 +77,7 @@ TEST(a_force_must_be_promised) {
     }
 }
 
-TEST(a_struct_that_nobody_filled_in_is_refused) {
+TEST(an_uninitialised_struct_is_refused) {
     knurl_device *device = NULL;
     struct {
         knurl_device_functions functions;
@@ -177,7 +177,7 @@ static void tell_little(void *user, knurl_device_info *info) {
     info->max_force = 1.0;
 }
 
-TEST(what_its_owner_does_not_say_promises_nothing) {
+TEST(unset_limits_promise_nothing) {
     for (uint32_t blocking = 0; blocking < 2; blocking++) {
         SCOPED_DEVICE *device = NULL;
         memset(&h, 0, sizeof h);
@@ -204,7 +204,7 @@ static void tell_much(void *user, knurl_device_info *info) {
     info->workspace_min[2] = -0.25;
 }
 
-TEST(what_its_owner_says_is_passed_on) {
+TEST(the_owners_description_is_passed_on) {
     SCOPED_DEVICE *device = NULL;
     memset(&h, 0, sizeof h);
     knurl_device_functions f = home_functions(&h, 1);
@@ -220,7 +220,7 @@ TEST(what_its_owner_says_is_passed_on) {
     assert_int_equal(info.struct_size, sizeof info);
 }
 
-TEST(outputs_whose_size_nobody_set_are_refused_and_untouched) {
+TEST(outputs_without_a_struct_size_are_refused_and_untouched) {
     SCOPED_DEVICE *device = home_open(&h, 0);
     knurl_device_info info;
     knurl_device_status status;

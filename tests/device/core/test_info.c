@@ -122,7 +122,7 @@ TEST(a_workspace_is_not_inside_out) {
 }
 
 /* Valid at the opening and invalid later: it is not started, and no loop accepts it; valid again, it works. */
-TEST(what_a_device_tells_later_is_checked_as_well) {
+TEST(later_changes_of_a_devices_info_are_checked_too) {
     SCOPED_DEVICE *device = NULL;
     knurl_device_info info;
     knurl_loop *loop = NULL;

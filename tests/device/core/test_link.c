@@ -36,7 +36,7 @@ static int count_events(knurl_device *device, int32_t code) {
 
 /* --- forces --- */
 
-TEST(forces_arrive_newest_first_and_none_comes_after_a_newer_one) {
+TEST(only_the_newest_force_is_sent_and_no_older_one_after_it) {
     knurl_device *device = home_open(&h, 1);
     knurl_store_relaxed(&h.takes_ns, (int64_t)1500000); /* slower than they are written */
     int64_t next = now_ns();
@@ -76,7 +76,7 @@ TEST(a_force_that_is_written_between_two_exchanges_goes_out_with_the_next_one) {
     assert_true(worst <= PERIOD_NS + 10000);
 }
 
-TEST(a_force_that_nobody_renews_is_played_for_10_ms_and_then_zeroed) {
+TEST(a_force_that_is_not_renewed_is_played_for_10_ms_and_then_zeroed) {
     const double f[3] = {1.0, 0.0, 0.0};
     knurl_device_event event;
     knurl_device *device = home_open(&h, 1);
@@ -255,7 +255,7 @@ TEST(a_loop_does_not_resume_while_the_device_is_silent) {
     }
 }
 
-TEST(a_status_says_that_it_is_lost_though_nobody_reads_it) {
+TEST(a_status_reports_the_loss_without_a_read) {
     knurl_device_event event;
     SCOPED_DEVICE *device = home_open(&h, 1);
     home_inject(&h, DOUBLE_UNPLUG);
@@ -268,7 +268,7 @@ TEST(a_status_says_that_it_is_lost_though_nobody_reads_it) {
 
 /* --- an exchange that hangs --- */
 
-TEST(while_an_exchange_hangs_nobody_waits_and_the_reader_says_so_once) {
+TEST(while_an_exchange_hangs_no_call_waits_and_the_reader_reports_it_once) {
     const double f[3] = {1.0, 0.0, 0.0};
     knurl_device_sample sample;
     int not_ready = 0;
@@ -303,7 +303,7 @@ TEST(a_hang_that_ends_without_an_answer_is_still_one_silence) {
 
 /* A link without its thread, in the reader's view after the exchange following the last position was counted and the
  * next one hangs. */
-TEST(a_hang_is_seen_whatever_was_counted_before_it) {
+TEST(a_hang_is_detected_after_any_count) {
     static knurl_link link;
     for (uint64_t counted = 0; counted < 4; counted++) {
         knurl_device_sample sample;

@@ -258,7 +258,7 @@ TEST(every_fault_has_its_number_its_name_a_sentence_and_a_unit) {
     }
 }
 
-TEST(codes_that_nobody_knows_have_texts_too) {
+TEST(unknown_codes_have_texts_too) {
     static const int32_t unknown[] = {0, -1, 18, 31, 34, INT32_MAX, INT32_MIN};
     for (size_t i = 0; i < COUNT_OF(unknown); i++) {
         assert_string_equal(knurl_fault_name(unknown[i]), "unknown");

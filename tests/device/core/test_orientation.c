@@ -24,7 +24,7 @@ static void turn_axes(const double q[4], double columns[3][3]) {
     }
 }
 
-TEST(the_quaternion_of_a_rotation_is_found_whatever_its_angle) {
+TEST(the_quaternion_of_a_rotation_by_any_angle_is_found) {
     for (int turn = 0; turn < 10000; turn++) {
         double q[4];
         double found[4];
@@ -44,7 +44,7 @@ TEST(the_quaternion_of_a_rotation_is_found_whatever_its_angle) {
     }
 }
 
-TEST(what_is_no_rotation_has_no_quaternion) {
+TEST(a_matrix_that_is_no_rotation_has_no_quaternion) {
     static const double none[3];
     static const double x[3] = {1.0, 0.0, 0.0};
     static const double y[3] = {0.0, 1.0, 0.0};
@@ -91,7 +91,7 @@ static void check_told(double x, double y, double z, double w, int is_told) {
     }
 }
 
-TEST(a_callers_device_may_tell_an_orientation_and_nonsense_is_none) {
+TEST(an_own_device_may_have_an_orientation_and_invalid_ones_are_ignored) {
     check_told(0.5, 0.5, 0.5, 0.5, 1);
     check_told(0.0, 0.0, 0.0, 2.0, 0);
     check_told(0.0, 0.0, 3.0, 1.0, 0);

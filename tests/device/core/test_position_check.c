@@ -49,7 +49,7 @@ static int drain(knurl_device *device, knurl_device_event *latest) {
 
 /* --- not finite --- */
 
-TEST(what_is_not_finite_is_told_once_and_the_force_is_zeroed) {
+TEST(a_non_finite_position_is_reported_once_and_the_force_is_zeroed) {
     static const double wrong[] = {(double)NAN, (double)INFINITY, -(double)INFINITY};
     for (size_t i = 0; i < 3 * COUNT_OF(wrong); i++) {
         knurl_device_event event;
@@ -66,7 +66,7 @@ TEST(what_is_not_finite_is_told_once_and_the_force_is_zeroed) {
     }
 }
 
-TEST(a_first_position_that_is_not_finite_is_none) {
+TEST(a_first_position_that_is_not_finite_is_ignored) {
     knurl_device_event event;
     SCOPED_DEVICE *device = open_at(1000.0);
     assert_int_equal(read_at(device, (double)NAN, 0.0, 0.0), KNURL_ERROR_DEVICE_NOT_READY);
@@ -74,7 +74,7 @@ TEST(a_first_position_that_is_not_finite_is_none) {
 }
 
 /* Every second position is bad, such as from a loose contact. The ring of events has 64 places. */
-TEST(what_is_not_finite_now_and_then_is_one_fault_until_it_has_settled) {
+TEST(repeated_non_finite_positions_are_one_fault_until_they_settle) {
     knurl_device_event event;
     SCOPED_DEVICE *device = open_at(1000.0);
     assert_int_equal(read_at(device, 0.0, 0.0, 0.0), KNURL_OK);
@@ -115,7 +115,7 @@ TEST(the_limit_is_10_metres_a_second_and_20_mm_at_least) {
     }
 }
 
-TEST(where_it_then_stays_for_20_ms_is_believed) {
+TEST(a_position_held_for_20_ms_is_accepted) {
     static const double rates[] = {100.0, 1000.0, 10000.0};
     for (size_t i = 0; i < COUNT_OF(rates); i++) {
         knurl_device_event event;

@@ -45,7 +45,7 @@ TEST(a_uri_is_a_name_and_values) {
     }
 }
 
-TEST(what_is_no_key_and_value_is_refused_with_the_device_what_was_found_and_what_is_known) {
+TEST(a_malformed_option_is_refused_with_the_device_the_text_and_the_known_keys) {
     static const char *const wrong[] = {
         "?libraries=x", "?librar=x", "?Library=x",     "?library",          "?=x",
         "?serial",      "?x",        "left?serial&x=", "?serial=1&other=2", "? serial=1"};

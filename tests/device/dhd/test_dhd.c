@@ -186,7 +186,7 @@ TEST(forces_that_are_switched_off_at_the_device_are_an_event_with_its_cause_and_
     }
 }
 
-TEST(what_cannot_be_opened_says_why) {
+TEST(a_failed_open_gives_the_reason) {
     knurl_device *device = open_released();
     knurl_device *other = NULL;
     dhd_double.close(device);

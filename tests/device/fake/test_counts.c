@@ -87,7 +87,7 @@ TEST(counts_of_five_and_a_half_of_the_last_digit_are_found) {
     CHECK_CLOSE(find(), 0.055e-3, 0.055e-6);
 }
 
-TEST(exact_positions_have_none) {
+TEST(exact_positions_have_no_resolution) {
     static const double speeds[] = {0.01, 0.05, 0.1, 0.2471};
     static const double rates[] = {1000.0, 100.0};
     for (size_t v = 0; v < COUNT_OF(speeds); v++) {
@@ -143,7 +143,7 @@ TEST(the_coarsest_axis_counts) {
     CHECK_CLOSE(find(), 0.1e-3, 1e-9);
 }
 
-TEST(few_or_still_rows_have_none) {
+TEST(few_or_still_rows_have_no_resolution) {
     double quantum = -1.0;
     record(SWEEP, 1000.0, 0.1, 0.055e-3, 17, 0.0);
     assert_int_equal(knurl_counts_find(rows[0], 1, &quantum), KNURL_OK);

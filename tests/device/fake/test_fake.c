@@ -99,7 +99,7 @@ TEST(every_key_that_is_listed_is_taken_with_its_default) {
     }
 }
 
-TEST(what_is_no_device_is_unknown) {
+TEST(an_unknown_device_is_refused) {
     static const char *const strange[] = {"", ":", "fak", "fakes", "Fake", "touc", "touches", "omega", "?", "mass=1"};
     opened out = {NULL};
     for (size_t i = 0; i < COUNT_OF(strange); i++) {
@@ -163,7 +163,7 @@ TEST(a_name_ends_in_whatever_an_older_caller_has_of_it) {
     }
 }
 
-TEST(an_update_rate_that_is_none_is_refused) {
+TEST(an_invalid_update_rate_is_refused) {
     static const double rates[] = {0.0, -1.0, 1e9, 0.5, NAN, HUGE_VAL};
     SCOPED_DEVICE *device = open_device("fake");
     for (size_t i = 0; i < COUNT_OF(rates); i++) {
@@ -201,7 +201,7 @@ TEST(a_force_is_shortened_to_the_limit_and_keeps_its_direction) {
     CHECK_CLOSE(sample.position[2] / sample.position[0], -1.6 / 1.2, 1e-12);
 }
 
-TEST(a_force_that_is_not_finite_is_written_as_none) {
+TEST(a_force_that_is_not_finite_does_not_move_the_hand) {
     static const double bad[][3] = {{NAN, 0, 0}, {1, NAN, 1}, {HUGE_VAL, 0, 0}, {0, -HUGE_VAL, 0}, {1, 1, HUGE_VAL}};
     for (size_t i = 0; i < COUNT_OF(bad); i++) {
         SCOPED_DEVICE *device = open_device(FREE "&delay=0");

@@ -107,7 +107,7 @@ TEST(every_preset_is_taken_and_named_by_the_help) {
     }
 }
 
-TEST(a_preset_that_is_none_is_refused) {
+TEST(an_unknown_preset_is_refused) {
     static const char *const bad[] = {"fake:?preset=delta", "fake:?preset=", "fake:?preset",      "fake:?preset=Touch",
                                       "fake:?exact=0.5",    "fake:?exact=2", "fake:?hand_mass=-1"};
     struct {

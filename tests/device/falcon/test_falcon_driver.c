@@ -253,7 +253,7 @@ TEST(opening_that_fails_leaves_nothing_open) {
     falcon_fake_free(&fake);
 }
 
-TEST(options_that_are_none_are_refused_before_anything_is_opened) {
+TEST(invalid_options_are_refused_before_anything_is_opened) {
     knurl_device *device = NULL;
     begin();
     const knurl_falcon_bus bus = falcon_fake_bus(&fake);

@@ -173,7 +173,7 @@ TEST(a_boot_loader_that_does_not_answer_ends_it) {
     plug_out();
 }
 
-TEST(an_image_that_is_none_of_a_falcon_is_named) {
+TEST(an_image_of_another_device_is_named) {
     (void)write_image(2000);
     plug_in();
     falcon_sim_forget_firmware(&fake.sim, 2000, 1);

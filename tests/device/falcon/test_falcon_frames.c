@@ -80,7 +80,7 @@ TEST(a_frame_that_is_cut_off_costs_only_itself) {
     }
 }
 
-TEST(what_is_left_of_a_frame_at_the_beginning_is_passed_over) {
+TEST(a_partial_frame_at_the_beginning_is_skipped) {
     for (size_t cut = 1; cut < 16; cut++) {
         knurl_falcon_decoder d = {0};
         assert_int_equal(feed(&d, &FRAME_A[cut]), 0);

@@ -80,7 +80,7 @@ TEST(at_the_centre_all_legs_stand_alike) {
     }
 }
 
-TEST(a_count_is_0_0364347_degrees_and_none_of_them_35) {
+TEST(a_count_is_0_0364347_degrees_and_zero_is_35) {
     CHECK_CLOSE(knurl_falcon_angle(0.0), 35.0 * 0.017453292519943295, 1e-12);
     CHECK_CLOSE(knurl_falcon_angle(1000.0) - knurl_falcon_angle(0.0), 36.4347 * 0.017453292519943295, 1e-6);
 }
@@ -174,7 +174,7 @@ TEST(a_force_beyond_the_motors_keeps_its_direction) {
     }
 }
 
-TEST(what_is_no_number_or_out_of_reach_is_refused) {
+TEST(non_finite_or_unreachable_positions_are_refused) {
     static const double wrong[][3] = {{NAN, 0.0, 0.0},  {0.0, INFINITY, 0.0}, {0.0, 0.0, -INFINITY}, {0.2, 0.0, 0.0},
                                       {0.0, -0.2, 0.0}, {0.0, 0.0, 0.2},      {1e300, 0.0, 0.0}};
     static const double far[][3] = {{NAN, 0.5, 0.5}, {INFINITY, 0.5, 0.5}, {3.1, 3.1, 3.1}, {-3.0, 2.0, 0.5}};
@@ -198,7 +198,7 @@ TEST(what_is_no_number_or_out_of_reach_is_refused) {
 }
 
 /* Every result is a solution: its inverse gives the same angles. */
-TEST(forward_gives_a_true_answer_or_none) {
+TEST(forward_kinematics_are_exact_or_fail) {
     uint64_t seed = 17;
     int found = 0;
     for (int n = 0; n < 200000; n++) {

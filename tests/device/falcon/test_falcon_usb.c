@@ -230,7 +230,7 @@ TEST(a_device_that_may_not_be_used_names_the_rule) {
 }
 
 /* libusb does not expose descriptors: checks that the one found is the device's. */
-TEST(what_a_guard_gets_is_the_devices_own_descriptor) {
+TEST(a_guard_gets_the_devices_own_descriptor) {
     falcon_emulation setup = {0};
     knurl_falcon_transport transport;
     struct stat node;

@@ -158,7 +158,7 @@ TEST(of_two_devices_the_one_that_is_named_is_moved_and_read) {
     CHECK_SAME(inverse3_double_sim()->force_of_second[2], 0.0);
 }
 
-TEST(what_cannot_be_opened_says_why) {
+TEST(a_failed_open_gives_the_reason) {
     const knurl_inverse3_service *service = inverse3_double_service();
     struct {
         knurl_device *device;
@@ -192,7 +192,7 @@ TEST(what_cannot_be_opened_says_why) {
     assert_int_equal(inverse3_double_connections(), 0);
 }
 
-TEST(its_devices_are_listed_by_id_or_why_there_is_none) {
+TEST(its_devices_are_listed_by_id_or_the_reason_is_given) {
     knurl_device_listing found[4];
     knurl_listings listings = {found, 4, 0};
     inverse3_double_begin();
@@ -270,7 +270,7 @@ TEST(a_service_that_ends_is_a_loss_and_the_device_is_had_back) {
 }
 
 /* An answer without a position, one that is too long (size 0), other JSON. */
-TEST(an_answer_that_is_none_zeroes_the_force_and_is_counted) {
+TEST(an_invalid_answer_zeroes_the_force_and_is_counted) {
     static const struct {
         const char *text;
         size_t size;

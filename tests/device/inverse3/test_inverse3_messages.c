@@ -78,7 +78,7 @@ TEST(a_number_of_17_digits_is_read_to_15) {
     }
 }
 
-TEST(what_is_no_json_object_is_refused) {
+TEST(a_message_that_is_no_json_object_is_refused) {
     static const char *const bad[] = {"",
                                       "hello",
                                       "7",
@@ -99,7 +99,7 @@ TEST(what_is_no_json_object_is_refused) {
     assert_null(knurl_inverse3_find(&heard, ""));
 }
 
-TEST(a_device_without_a_fit_id_is_none) {
+TEST(a_device_without_a_valid_id_is_ignored) {
     static const char *const ids[] = {"17",           "\"\"",   "null", "{}", "\"one of more than fifteen letters\"",
                                       "\"4\\\"}]}\"", "\"a b\""};
     for (size_t i = 0; i < COUNT_OF(ids); i++) {
@@ -109,7 +109,7 @@ TEST(a_device_without_a_fit_id_is_none) {
     }
 }
 
-TEST(a_position_that_is_none_is_told) {
+TEST(an_invalid_position_is_reported) {
     static const char *const values[] = {"nan",
                                          "1e999",
                                          "\"0\"",

@@ -66,7 +66,7 @@ TEST(faults_of_the_service_are_told) {
     }
 }
 
-TEST(what_cannot_be_opened_is_one_sentence_and_quick) {
+TEST(a_failed_open_is_one_sentence_and_quick) {
     static const struct {
         const char *fault, *words;
     } table[] = {
@@ -82,7 +82,7 @@ TEST(what_cannot_be_opened_is_one_sentence_and_quick) {
 }
 
 /* libwebsockets makes the process ignore it. */
-TEST(what_the_process_does_at_SIGPIPE_stays_as_it_was) {
+TEST(the_processs_handling_of_SIGPIPE_is_unchanged) {
     struct sigaction now;
     struct {
         knurl_device *device;

@@ -85,7 +85,7 @@ TEST(keys_are_taken_and_the_others_keep_their_defaults) {
     assert_memory_equal(&g, &expected, sizeof g);
 }
 
-TEST(what_is_wrong_is_refused_in_words_that_name_file_line_key_expected_and_found) {
+TEST(errors_name_file_line_key_expected_and_found) {
     static const struct {
         const char *text, *named[3];
     } bad[] = {{"\n\nlength_b = 2,05\n", {"line 3: length_b", "expected 0.01 to 1 m", "'2,05'"}},
@@ -174,7 +174,7 @@ TEST(numbers_are_the_c_librarys_to_the_last_bit) {
     }
 }
 
-TEST(what_is_no_number_is_none) {
+TEST(non_numbers_are_refused) {
     static const char *const bad[] = {
         "",    "-",   ".",     "-.", "e5",  "1e",   "1e+", "1e5.",  "0x",   "0x10000",
         "0xg", "1 2", "1.2.3", "+1", "--1", "1e99", "1f",  "1e-99", "-0x1", "1234567890123456"};

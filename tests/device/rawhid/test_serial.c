@@ -122,7 +122,7 @@ static int is_taken(const char *line) {
     return result == KNURL_OK;
 }
 
-TEST(lines_that_are_none_make_no_position) {
+TEST(invalid_lines_make_no_position) {
     static const char *const lines[] = {
         "[]",
         "[3]",

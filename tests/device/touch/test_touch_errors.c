@@ -17,7 +17,7 @@ TEST(every_error_has_a_sentence_of_its_own) {
     }
 }
 
-TEST(what_nobody_knows_and_what_gives_no_reason_have_sentences_too) {
+TEST(unknown_errors_and_errors_without_a_reason_have_sentences_too) {
     assert_non_null(strstr(knurl_hd_error_sentence(0x9999), "unknown to this version"));
     assert_non_null(strstr(knurl_hd_error_sentence(0xffffffffu), "unknown to this version"));
     assert_non_null(strstr(knurl_hd_error_sentence(0), "no reason"));

@@ -61,7 +61,7 @@ TEST(a_function_that_is_missing_is_named_and_nothing_stays_loaded) {
     assert_false(is_loaded(KNURL_TEST_STUB_OLD));
 }
 
-TEST(a_library_for_other_machines_and_a_file_that_is_none_are_told) {
+TEST(a_library_for_other_machines_and_a_file_that_is_no_library_are_named) {
     static const char *const narrow[] = {"wrong ELF class", "ELFCLASS32"};
     static const char *const other[] = {"another processor", "machine 8"};
     static const char *const none[] = {"invalid ELF header"};
@@ -129,7 +129,7 @@ TEST(without_memory_nothing_is_opened_and_nothing_left_behind) {
     assert_false(is_loaded(KNURL_TEST_STUB));
 }
 
-TEST(a_uri_with_a_key_that_is_none_is_refused) {
+TEST(a_uri_with_an_unknown_key_is_refused) {
     static const char *const words[] = {"touch", "library=", "rate=1000"};
     check_refused_uri("touch:?rate=1000", KNURL_ERROR_ARGUMENT, words, COUNT_OF(words));
 }
@@ -148,7 +148,7 @@ static knurl_device_listing listing_of_touch(void) {
     return all[0];
 }
 
-TEST(the_listing_says_why_there_is_none_or_what_there_is) {
+TEST(the_listing_shows_the_device_or_the_reason_that_there_is_none) {
     assert_int_equal(unsetenv("KNURL_HD_LIBRARY"), 0);
     knurl_device_listing found = listing_of_touch();
     assert_string_equal(found.uri, "touch");
