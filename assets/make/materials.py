@@ -37,8 +37,8 @@ def for_docs(materials):
             "```sh\n"
             "build/release/knurl tag model.glb --material Grip --preset knurl_diamond --out felt.glb\n"
             "```\n\n"
-            "Period is from ridge to ridge, depth from peak to peak. Each has its source, or is a guess: measured by "
-            "nobody.\nStiffness and friction are guesses within what a 3D Systems Touch can render.\n\n"
+            "Period is from ridge to ridge, depth from peak to peak. Each has its source, or is a guess, not measured.\n"
+            "Stiffness and friction are guesses within what a 3D Systems Touch can render.\n\n"
             "| name | material | period | depth |\n|---|---|---|---|\n" + "\n".join(rows) + "\n")
 
 
