@@ -244,7 +244,7 @@ TEST(percentiles_of_known_distributions_are_within_three_percent) {
     check_percentiles(values, COUNT_OF(values));
 }
 
-TEST(every_single_value_is_told_within_three_percent) {
+TEST(every_value_is_within_three_percent) {
     uint64_t random = 99;
     for (int i = 0; i < 2000; i++) {
         const int64_t value = (int64_t)(random_bits(&random) >> (1 + i % 63));
@@ -252,7 +252,7 @@ TEST(every_single_value_is_told_within_three_percent) {
     }
 }
 
-TEST(values_below_32_are_told_exactly) {
+TEST(values_below_32_are_exact) {
     for (int64_t value = 0; value < 32; value++) {
         memset(&histogram, 0, sizeof histogram);
         knurl_histogram_add(&histogram, value);

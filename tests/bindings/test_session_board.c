@@ -38,7 +38,7 @@ TEST(the_history_is_of_the_latest_ticks_oldest_first) {
     }
 }
 
-TEST(changes_of_what_is_touched_are_told_once_each) {
+TEST(changes_of_contact_are_reported_once_each) {
     static knurl_board b;
     knurl_surface_id met[KNURL_BOARD_CHANGES];
     knurl_board_tick now;

@@ -49,7 +49,7 @@ static void check_end(knurl_session *s) {
     knurl_session_destroy(s);
 }
 
-TEST(a_touch_is_told_when_it_begins_and_when_it_is_over) {
+TEST(a_touch_is_reported_at_its_beginning_and_end) {
     three t;
     set_up(&t, "fake");
     lift(t.s);
@@ -80,7 +80,7 @@ static void check_touches(const three *t, const char *told) {
 
 /* Moves within a frame: a digit presses on that plate, '^' lifts. A plate that is touched again in the same frame was
  * never left, and each plate gets one event of a kind. */
-TEST(touches_of_a_frame_are_told_once_and_in_their_order) {
+TEST(touches_of_a_frame_are_reported_once_and_in_their_order) {
     static const struct {
         int is_touching; /* the first plate, and its event was read */
         const char *frames[2], *told[2];
@@ -119,7 +119,7 @@ TEST(removing_a_surface_ends_its_contact) {
     check_end(t.s);
 }
 
-TEST(a_touch_of_what_is_gone_by_now_is_not_told) {
+TEST(a_touch_of_a_removed_surface_is_not_reported) {
     three t;
     set_up(&t, "fake");
     press_on(&t, 0);
@@ -198,7 +198,7 @@ static void check_button(knurl_session *s, int32_t button, double pressed) {
     CHECK_SAME(event.value, pressed);
 }
 
-TEST(a_button_is_told_when_it_goes_down_and_when_it_comes_up) {
+TEST(a_button_is_reported_when_it_goes_down_and_when_it_comes_up) {
     knurl_session *s = set_up_nothing("fake:?press_at=0.05"); /* for 0.1 s */
     step(s, 50);
     knurl_session_update(s);
@@ -238,7 +238,7 @@ static void check_fault(knurl_session *s, int32_t code, double value) {
     CHECK_SAME(event.value, value);
 }
 
-TEST(a_lost_device_is_told_and_then_the_end) {
+TEST(a_lost_device_is_reported_and_then_the_end) {
     knurl_session_desc desc = describe("fake:?lose_at=0.1", "");
     knurl_session *s = make_session();
     const knurl_surface_id plate = add_plate(s, 0.0, 0.0, 0.0);
@@ -262,7 +262,7 @@ TEST(a_lost_device_is_told_and_then_the_end) {
     check_end(s);
 }
 
-TEST(a_device_that_comes_back_is_told_and_goes_on) {
+TEST(a_device_that_comes_back_is_reported_and_goes_on) {
     SCOPED_SESSION *s = set_up_nothing("fake:?lose_at=0.1");
     step(s, 300);
     knurl_session_update(s);

@@ -177,7 +177,7 @@ static knurl_result read_turned(void *user, knurl_device_sample *sample) {
     return KNURL_OK;
 }
 
-TEST(a_styluss_orientation_is_told_in_scene_axes) {
+TEST(a_styluss_orientation_is_reported_in_scene_axes) {
     static const double over[9] = {1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0};
     SCOPED_SESSION *s = make_session();
     knurl_session_desc desc = describe("fake", "");

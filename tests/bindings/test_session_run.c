@@ -28,7 +28,7 @@ static int is_told(knurl_session *s, int32_t kind, int32_t code) {
     return 0;
 }
 
-TEST(a_stroke_over_the_first_surface_is_felt_and_told) {
+TEST(a_stroke_over_the_first_surface_is_felt_and_reported) {
     const knurl_session_desc desc = describe("fake", "press");
     static float rows[2 * KNURL_SESSION_HISTORY];
     knurl_session_event event;

@@ -90,7 +90,7 @@ int32_t on_progress(void *user, double done) {
     return ++watch->calls == watch->stop_at ? 1 : 0;
 }
 
-TEST(progress_is_told_and_never_goes_back) {
+TEST(progress_is_reported_and_never_goes_back) {
     Loaded loaded;
     Watch watch;
     File file = quad();

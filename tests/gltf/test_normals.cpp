@@ -70,7 +70,7 @@ TEST(a_node_overrides_smoothness_of_a_shared_mesh) {
     assert_int_equal(curved(file, 2), 16);
 }
 
-TEST(bad_normals_are_told_not_refused) {
+TEST(bad_normals_are_reported_not_refused) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     for (const auto &first : {std::initializer_list<float>{nan, nan, nan}, {0.0F, 0.0F, 0.0F}, {5.0F, 0.0F, 0.0F}}) {
         const knurl_surface_info info = Loaded(arch("", first).glb()).info();

@@ -172,7 +172,7 @@ TEST(a_tag_that_would_be_lost_is_refused) {
     assert_fails(file.glb(), KNURL_ERROR_FORMAT, {"mesh 0: primitives[0].extras: a knurl tag would be lost"});
 }
 
-TEST(a_mistake_in_an_unused_material_is_told_too) {
+TEST(a_mistake_in_an_unused_material_is_reported_too) {
     File file = quad();
     file.materials += R"(,{"name":"spare","extras":{"knurl_amplitude":-1}})";
     assert_fails(file.glb(), KNURL_ERROR_FORMAT, {"material 'spare' (1): knurl_amplitude"});

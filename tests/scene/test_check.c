@@ -136,7 +136,7 @@ TEST(the_papers_amplitude_as_printed_is_beyond_a_touch) {
     assert_int_equal(check_of(&s).exceeded, 0);
 }
 
-TEST(ridges_finer_than_two_position_steps_are_told) {
+TEST(ridges_finer_than_two_position_steps_are_reported) {
     setting s = plain();
     set_grating(&s.parts, KNURL_METHOD_S2, 0.0, 5001.0, 1e-4);
     assert_int_equal(check_of(&s).exceeded, KNURL_LIMIT_PERIOD);

@@ -139,7 +139,7 @@ TEST(across_an_axis_nothing_is_stretched_with_any_uvs) {
     CHECK_VECTOR(info.stretch, 1.0, 1.0, 1.0, 0.0);
 }
 
-TEST(stretch_is_told_along_y_too_and_warned_of_beyond_an_octave) {
+TEST(stretch_is_reported_along_y_too_and_warned_of_beyond_an_octave) {
     static const double ratios[] = {1.0, 8.0};
     for (size_t i = 0; i < COUNT_OF(ratios); i++) {
         SCOPED_SHAPE s = uneven_sheet(ratios[i]);

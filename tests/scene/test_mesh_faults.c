@@ -55,7 +55,7 @@ static int has_one_side(knurl_scene *scene) {
     return fabs(at_first - full) < K * SAG && fabs(entered - full) < K * SAG && !held;
 }
 
-TEST(few_reversed_twins_leave_a_mesh_its_one_side_and_are_told) {
+TEST(few_reversed_twins_leave_a_mesh_its_one_side_and_are_reported) {
     static const uint32_t counts[][2] = {{1, 1}, {1, 700}, {12, 100}, {120, 10}};
     for (size_t i = 0; i < COUNT_OF(counts); i++) {
         for (int first = 0; first < 2; first++) {
@@ -73,7 +73,7 @@ TEST(few_reversed_twins_leave_a_mesh_its_one_side_and_are_told) {
     }
 }
 
-TEST(more_twins_than_a_tenth_of_the_area_make_a_mesh_double_sided_and_are_told_unless_all_have_one) {
+TEST(more_twins_than_a_tenth_of_the_area_make_a_mesh_double_sided_and_are_reported_unless_all_have_one) {
     static const uint32_t counts[][2] = {{320, 4}, {640, 2}, {1280, 1}};
     for (size_t i = 0; i < COUNT_OF(counts); i++) {
         SCOPED_SHAPE s = sphere_with_twins(counts[i][0], counts[i][1], 0);

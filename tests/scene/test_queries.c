@@ -339,7 +339,7 @@ static knurl_scene *floor_and_wall(knurl_surface_id ids[2]) {
     return scene;
 }
 
-TEST(every_contact_of_a_tick_is_told) {
+TEST(every_contact_of_a_tick_is_reported) {
     knurl_surface_id ids[2];
     knurl_hip_contact contacts[KNURL_CONTACTS_MAX];
     SCOPED_SCENE *scene = floor_and_wall(ids);

@@ -47,7 +47,7 @@ static uint32_t bad_with(double x, double y, double z) {
     return info.bad_normals;
 }
 
-TEST(normals_that_cannot_be_right_are_told_and_their_triangles_felt_flat) {
+TEST(normals_that_cannot_be_right_are_reported_and_their_triangles_felt_flat) {
     const double g = 0.5 * (1.0 + sqrt(5.0)), unit = 1.0 / sqrt(1.0 + g * g); /* of the first vertex: -1, g, 0 */
     assert_int_equal(bad_with(-unit, g * unit, 0.0), 0);
     assert_int_equal(bad_with(-0.95 * unit, 0.95 * g * unit, 0.0), 0); /* of signed bytes */

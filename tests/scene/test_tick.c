@@ -228,7 +228,7 @@ TEST(surface_elsewhere_feels_the_same) {
     }
 }
 
-TEST(velocity_is_told_in_the_surface_frame) {
+TEST(velocity_is_reported_in_the_surface_frame) {
     const double position[3] = {0.0, 0.0, -0.001};
     const double velocity[3] = {0.3, 0.1, 0.05};
     for (int k = 0; k < 8; k++) {

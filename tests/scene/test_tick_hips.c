@@ -190,7 +190,7 @@ TEST(numbers_that_overflow_give_no_force) {
     }
 }
 
-TEST(forces_of_several_surfaces_add_and_the_deepest_is_told) {
+TEST(forces_of_several_surfaces_add_and_the_deepest_is_reported) {
     surface_parts parts = surface_plane();
     SCOPED_SCENE *scene = empty_scene(1);
     const knurl_surface_id floor_id = add_surface(scene, &parts);

@@ -70,7 +70,7 @@ static uint64_t count_limits(const knurl_scene *scene) {
 }
 
 /* All triangles are as near to its middle: 20,480 of them, whose crests reach as far as it is wide. */
-TEST(crests_that_reach_through_a_mesh_meet_the_limit_which_is_told_and_counted) {
+TEST(crests_that_reach_through_a_mesh_meet_the_limit_which_is_reported_and_counted) {
     const uint32_t limits[2] = {KNURL_VISITS_MAX, UINT32_MAX - 1};
     SCOPED_SHAPE s = shape_sphere(0.01, 5);
     surface_parts parts = surface_shape(&s, 0.02);

@@ -104,7 +104,7 @@ static void check_run(const char *name, const char *asked, double ticks, double 
     CHECK_SAME(json_number_of(p.out, "contact"), contact);
 }
 
-TEST(one_case_is_told_with_all_its_fields) {
+TEST(one_case_is_reported_with_all_its_fields) {
     SCOPED_PROCESS p = RUN_TOOL("bench", "--case", "plane", "--json", "--ticks", "2000");
     check_done(&p);
     check_brackets(p.out);

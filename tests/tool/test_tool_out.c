@@ -143,7 +143,7 @@ static process run_closed(const char *closed, const char *device, const char *ou
 
 /* Neither a file called "-" nor the output takes a closed stream's place: otherwise the warning that the device is too
  * weak for the walls would be among the rows. */
-TEST(closed_standard_streams_are_told_and_no_file_takes_their_place) {
+TEST(closed_standard_streams_are_reported_and_no_file_takes_their_place) {
     process p = run_closed(">&-", "fake", "-");
     check_refused(&p, 1, "-: Bad file descriptor", "--out - >&-");
     assert_false(file_exists("-"));

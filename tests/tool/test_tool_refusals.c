@@ -44,7 +44,7 @@ static void check_all_wrong(const wrong *table, size_t count) {
     }
 }
 
-TEST(wrong_usage_of_the_tool_is_told) {
+TEST(wrong_usage_of_the_tool_is_reported) {
     static const wrong table[] = {
         {"fly", 2, "fly|inspect"},
         {"--fast", 2, "--fast"},
@@ -67,7 +67,7 @@ TEST(wrong_usage_of_the_tool_is_told) {
     check_all_wrong(table, COUNT_OF(table));
 }
 
-TEST(a_missing_value_is_told) {
+TEST(a_missing_value_is_reported) {
     static const char *const options[] = {"--device", "--surface", "--stroke", "--trace",
                                           "--method", "--seconds", "--rate",   "--out"};
     for (size_t i = 0; i < COUNT_OF(options); i++) {
@@ -86,7 +86,7 @@ TEST(a_missing_value_is_told) {
     check_all_wrong(table, COUNT_OF(table));
 }
 
-TEST(a_number_out_of_range_is_told) {
+TEST(a_number_out_of_range_is_reported) {
     static const wrong table[] = {
         {"run %P --fast --rate 0 --out %T/out.csv", 2, "--rate|100|10000"},
         {"run %P --fast --rate 1e9 --out %T/out.csv", 2, "--rate|1e9"},
@@ -126,19 +126,19 @@ TEST(an_invalid_limit_of_loading_is_reported) {
     }
 }
 
-TEST(an_empty_name_of_a_scene_is_told) {
+TEST(an_empty_name_of_a_scene_is_reported) {
     process p = RUN_TOOL("run", "");
     check_refused(&p, 2, "run: expected a .gltf or .glb file, found none", "run ''");
     p = RUN_TOOL("inspect", "");
     check_refused(&p, 2, "inspect: expected a .gltf or .glb file, found none", "inspect ''");
 }
 
-TEST(a_number_of_ticks_that_is_no_whole_number_is_told) {
+TEST(a_number_of_ticks_that_is_no_whole_number_is_reported) {
     static const wrong table[] = {{"signal --method T1 --period-ms 3 --ticks 2.5", 2, "--ticks|2.5"}};
     check_all_wrong(table, COUNT_OF(table));
 }
 
-TEST(unknown_names_are_told_with_those_that_are_known) {
+TEST(unknown_names_are_reported_with_those_that_are_known) {
     static const wrong table[] = {
         {"run %P --fast --method S3 --out %T/out.csv", 2, "S3|S1|S2"},
         {"run %P --fast --method s2", 2, "s2"},
@@ -166,7 +166,7 @@ TEST(an_unavailable_device_fails_with_a_sentence) {
     check_all_wrong(table, COUNT_OF(table));
 }
 
-TEST(a_scene_that_cannot_be_read_is_told_with_its_name) {
+TEST(a_scene_that_cannot_be_read_is_reported_with_its_name) {
     static const char *const commands[] = {"inspect", "run"};
     write_text(tool_path("text.gltf"), "this is no JSON");
     write_text(tool_path("empty.glb"), "");
@@ -211,7 +211,7 @@ TEST(run_on_an_untagged_scene_fails_and_hints_at_inspect) {
     check_all_wrong(table, COUNT_OF(table));
 }
 
-TEST(a_bad_trace_is_told_with_its_file_line_and_column) {
+TEST(a_bad_trace_is_reported_with_its_file_line_and_column) {
     static const struct {
         const char *text, *words;
     } traces[] = {{"t,x,y,z\n0,0,0,0\n0.001,0,nan,0\n", "trace.csv|line 3|y|nan"},
@@ -239,7 +239,7 @@ TEST(a_bad_trace_is_told_with_its_file_line_and_column) {
     check_all_wrong(table, COUNT_OF(table));
 }
 
-TEST(a_bad_motion_for_scan_is_told_with_its_file_line_and_column) {
+TEST(a_bad_motion_for_scan_is_reported_with_its_file_line_and_column) {
     static const struct {
         const char *text, *words;
     } motions[] = {{"x,y\n0,0\n0,nan\n", "motion.csv|line 3|y"},
@@ -260,7 +260,7 @@ TEST(a_bad_motion_for_scan_is_told_with_its_file_line_and_column) {
     check_all_wrong(table, COUNT_OF(table));
 }
 
-TEST(an_output_that_cannot_be_written_is_told_and_nothing_is_left) {
+TEST(an_output_that_cannot_be_written_is_reported_and_nothing_is_left) {
     static const wrong table[] = {{"run %P --fast --seconds 0.1 --out %T/no/such/folder/o.csv", 1, "o.csv"},
                                   {"run %P --fast --seconds 0.1 --out %T", 1, "tool_"}};
     check_all_wrong(table, COUNT_OF(table));
@@ -294,7 +294,7 @@ TEST(a_line_break_in_a_name_does_not_break_the_line) {
     check_refused(&p, 2, "away", "a command's name");
 }
 
-TEST(without_a_command_the_usage_is_told) {
+TEST(without_a_command_the_usage_is_printed) {
     SCOPED_PROCESS p = RUN_TOOL(NULL);
     assert_int_equal(p.exit_code, 2);
     assert_int_equal(p.sizes[0], 0);

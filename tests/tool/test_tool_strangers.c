@@ -41,7 +41,7 @@ TEST(a_fifo_without_a_writer_is_not_waited_for) {
     assert_int_equal(remove(tool_path("fifo")), 0);
 }
 
-TEST(a_file_that_is_no_geometry_is_not_told_on) {
+TEST(a_file_that_is_no_geometry_is_not_quoted) {
     char uri[1200];
     write_text(tool_path("secret"), "root:$6$salt$hash:19000:0\n");
     (void)snprintf(uri, sizeof uri, "rawhid:?geometry=%s", tool_path("secret"));

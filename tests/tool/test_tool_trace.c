@@ -123,7 +123,7 @@ TEST(a_trace_comes_from_standard_input) {
     check_refused(&p, 1, "standard input: line 1|'z'", "a header without z");
 }
 
-TEST(a_short_trace_that_touches_nothing_is_told) {
+TEST(a_short_trace_that_touches_nothing_is_reported) {
     write_text(tool_path("high.csv"), "t,x,y,z\n0,0.25,0.52,-0.125\n0.1,0.26,0.52,-0.125\n");
     SCOPED_PROCESS p = RUN_TOOL("run", write_plate("plate.gltf", TAG), "--fast", "--trace", tool_path("high.csv"));
     assert_int_equal(p.exit_code, 4);

@@ -109,7 +109,7 @@ static int32_t first_fault(bench *b, int *count) {
     return first;
 }
 
-TEST(a_backwards_motor_is_told_with_its_axis_and_gets_no_force_until_the_device_is_opened_again) {
+TEST(a_backwards_motor_is_reported_with_its_axis_and_gets_no_force_until_the_device_is_opened_again) {
     bench b;
     int count = 0;
     begin(&b, "hand_stiffness=100&hand_damping=1", -1.0, 0);

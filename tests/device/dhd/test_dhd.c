@@ -57,7 +57,7 @@ TEST(a_force_moves_the_grip_where_it_points_and_no_torque_goes_out) {
 }
 
 /* By 90 degrees about the vertical, Knurl's y. */
-TEST(the_orientation_of_the_grip_is_told) {
+TEST(the_orientation_of_the_grip_is_reported) {
     knurl_device_sample sample;
     knurl_device *device = open_released();
     assert_int_equal(run(device, 10, none, &sample), KNURL_OK);

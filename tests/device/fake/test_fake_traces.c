@@ -37,7 +37,7 @@ TEST(a_trace_is_played_exactly_interpolated_between_its_rows_and_held_at_its_end
     }
 }
 
-TEST(a_trace_of_a_row_a_tick_is_told_to_the_last_digit) {
+TEST(a_trace_of_a_row_a_tick_is_reported_to_the_last_digit) {
     static double rows[2000][4];
     uint64_t random = 4;
     for (size_t i = 0; i < COUNT_OF(rows); i++) {

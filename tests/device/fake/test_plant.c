@@ -253,7 +253,7 @@ TEST(the_workspaces_stops_hold_and_release) {
     assert_true(plant.position[0] < 0.08); /* it does not stick */
 }
 
-TEST(positions_are_told_to_the_nearest_multiple_of_the_resolution) {
+TEST(positions_are_reported_to_the_nearest_multiple_of_the_resolution) {
     knurl_plant_config config = free_mass(0);
     config.resolution = 0.055e-3;
     uint64_t random = 5;

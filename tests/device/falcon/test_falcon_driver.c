@@ -58,7 +58,7 @@ TEST(no_force_is_stronger_than_was_asked_for_with_any_gain_that_the_device_may_h
     }
 }
 
-TEST(a_gain_that_was_weighed_can_be_set_and_is_told) {
+TEST(a_gain_that_was_weighed_can_be_set_and_is_reported) {
     const double force[3] = {0.0, 0.0, 1.5};
     begin();
     falcon_sim_put(&fake.sim, 0.0, 0.0, 0.0);
@@ -102,7 +102,7 @@ TEST(homing_lasts_through_forces_because_every_frame_asks_for_it) {
     close_fake(device);
 }
 
-TEST(motors_are_never_told_more_than_they_may) {
+TEST(motor_commands_stay_within_their_limits) {
     const double force[3] = {8.9, 0.0, 0.0};
     begin();
     falcon_sim_put(&fake.sim, 0.0, 0.0, 0.0);

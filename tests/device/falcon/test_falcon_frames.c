@@ -59,7 +59,7 @@ TEST(a_frame_may_come_in_pieces_of_any_size) {
     }
 }
 
-TEST(all_homed_legs_and_buttons_are_told) {
+TEST(all_homed_legs_and_buttons_are_reported) {
     knurl_falcon_decoder d = {0};
     uint8_t frame[17] = FRAME_A;
     for (uint32_t flags = 0; flags < 128; flags++) {

@@ -147,7 +147,7 @@ TEST(a_mute_device_is_silent_then_lost) {
     falcon_emulated_stop();
 }
 
-TEST(a_pulled_cable_is_told_at_once_and_the_device_had_back) {
+TEST(a_pulled_cable_is_reported_at_once_and_the_device_had_back) {
     falcon_emulation setup = {0};
     int lost = 0;
     plug_in(&setup);
@@ -250,7 +250,7 @@ TEST(a_guard_gets_the_devices_own_descriptor) {
 }
 
 /* Its transfers are for the kernel, which is not here; see test_guard_process.c. */
-TEST(with_a_guard_it_works_and_is_free_again_and_one_that_is_killed_is_told) {
+TEST(with_a_guard_it_works_and_is_free_again_and_one_that_is_killed_is_reported) {
     falcon_emulation setup = {0};
     struct stat node;
     plug_in(&setup);

@@ -116,7 +116,7 @@ TEST(each_type_has_its_own_name_workspace_and_force_and_others_are_refused) {
 
 /* The service's filter pipeline: viscous damping is set for the session, its oscillation damper cannot be, and the
  * force gate's gain has no published meaning: it is kept, and shown in the device's name. */
-TEST(the_sessions_damping_is_off_and_the_force_gate_is_told) {
+TEST(the_sessions_damping_is_off_and_the_force_gate_is_reported) {
     knurl_device_sample sample;
     SCOPED_DEVICE *device = open_released("");
     CHECK_SAME(inverse3_double_sim()->damping, 0.0);
@@ -364,7 +364,7 @@ static int count_events(knurl_device *device, int32_t code, double *value) {
 }
 
 /* Of the ramp's 2 N in 20 ms: two ticks may fall between two exchanges. */
-TEST(without_power_or_not_ready_it_is_told_no_force_and_the_force_comes_back_by_a_ramp) {
+TEST(without_power_or_not_ready_it_gets_zero_force_and_the_force_comes_back_by_a_ramp) {
     static const int causes[] = {KNURL_FORCE_OFF_POWER, KNURL_FORCE_OFF_NOT_READY};
     for (size_t i = 0; i < COUNT_OF(causes); i++) {
         double value = -1.0;
@@ -402,7 +402,7 @@ TEST(a_state_that_leaves_the_device_out_once_changes_nothing) {
 }
 
 /* It may still be connected, and play its last force. */
-TEST(before_a_device_that_is_left_out_counts_as_lost_it_is_told_no_force) {
+TEST(a_skipped_device_gets_zero_force_before_it_counts_as_lost) {
     double value = 0.0;
     knurl_loop *loop = NULL;
     SCOPED_DEVICE *device = open_in_loop(&loop);

@@ -42,7 +42,7 @@ static int tells(const process *p, const char *word) {
 
 /* After 0.1 s; the tool ends with it, or continues without a force. An answer after 5 ms counts as silence: if the
  * machine is too busy to transfer 70 KB within that time, the fault is tried again. */
-TEST(faults_of_the_service_are_told) {
+TEST(faults_of_the_service_are_reported) {
     static const struct {
         const char *fault, *seconds, *words;
     } table[] = {{"unplugged", "0.2", "lost"},

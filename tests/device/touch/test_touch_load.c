@@ -32,7 +32,7 @@ static void write_bytes(const char *path, const void *bytes, size_t size) {
     assert_int_equal(fclose(file), 0);
 }
 
-TEST(without_a_library_every_place_that_was_tried_is_told_and_what_helps) {
+TEST(without_a_library_every_tried_place_is_reported_with_a_remedy) {
     static const char *const words[] = {"libHD.so (",       "libHD.so.3.4 (", "libHD.so.3.0 (",
                                         "No such file",     "OpenHaptics",    "device driver",
                                         "KNURL_HD_LIBRARY", "?library=",      "GTDD_HOME"};
