@@ -134,9 +134,16 @@ TEST(across_an_axis_nothing_is_stretched_with_any_uvs) {
     parts.desc.axis[1] = 1.0;
     (void)check_of(&parts, &info);
     CHECK_VECTOR(info.stretch_y, 1.0, 1.0, 1.0, 0.0);
+    float tangents[6][4] = {{0.0F}};
+    for (int i = 0; i < 6; i++) {
+        tangents[i][0] = tangents[i][3] = 1.0F;
+    }
     parts.mesh.uvs = NULL;
+    parts.mesh.tangents = tangents[0];
+    parts.desc.axis[1] = 0.0;
     (void)check_of(&parts, &info);
     CHECK_VECTOR(info.stretch, 1.0, 1.0, 1.0, 0.0);
+    CHECK_VECTOR(info.stretch_y, 1.0, 1.0, 1.0, 0.0);
 }
 
 TEST(stretch_is_reported_along_y_too_and_warned_of_beyond_an_octave) {

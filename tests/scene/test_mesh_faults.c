@@ -191,13 +191,17 @@ TEST(uvs_on_less_than_half_of_the_area_are_ignored) {
 static void check_round_trip(const shape *ball, int about_x, int32_t method, double fs, double from) {
     const double radius = 0.03, u = 4.0 * sqrt(2.0) * radius;
     const double pi = acos(-1.0);
+    double last = 0.0;
     knurl_hip_counts counts;
     surface_parts parts = surface_mesh(ball);
     set_grating(&parts, method, about_x ? 0.0 : fs, about_x ? fs : 0.0, A);
     SCOPED_SCENE *scene = scene_of(&parts);
     for (int k = 0; k <= 2000; k++) {
         const double angle = from + 2.0 * pi * k / 2000.0, r = radius - 0.001;
-        (void)tick_at(scene, about_x ? 1e-4 : r * sin(angle), about_x ? r * sin(angle) : 1e-4, r * cos(angle));
+        const knurl_tick_output out =
+            tick_at(scene, about_x ? 1e-4 : r * sin(angle), about_x ? r * sin(angle) : 1e-4, r * cos(angle));
+        assert_true(k == 0 || fabs(out.cycles[about_x] - last) < 1.5 * fs * 2.0 * pi * r / 2000.0); /* at seams too */
+        last = out.cycles[about_x];
     }
     assert_int_equal(knurl_scene_get_tick(scene, 0, NULL, &counts), KNURL_OK);
     CHECK_CLOSE((double)counts.half_cycles_played, 2.0 * fs * u, 2.0);

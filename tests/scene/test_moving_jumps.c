@@ -3,6 +3,14 @@
 
 /* --- jumps --- */
 
+static void feel_nothing(knurl_scene *scene) {
+    for (int k = 0; k < 5; k++) {
+        const knurl_tick_output out = stand_at(scene, 0.0, 0.0, 0.0);
+        CHECK_VECTOR(out.force, 0.0, 0.0, 0.0, 0.0L);
+        assert_int_equal(out.contacts, 0);
+    }
+}
+
 TEST(jump_passes_by_what_is_on_its_way) {
     static const double ends[] = {0.002, 0.005, 0.05, 0.5};
     for (size_t i = 0; i < COUNT_OF(ends); i++) {
@@ -14,11 +22,7 @@ TEST(jump_passes_by_what_is_on_its_way) {
         (void)stand_at(scene, 0.0, 0.0, 0.0);
         (void)stand_at(scene, 0.0, 0.0, 0.0);
         move_to(scene, knurl_scene_get_surface(scene, 0), &high, 0.0);
-        for (int k = 0; k < 5; k++) {
-            const knurl_tick_output out = stand_at(scene, 0.0, 0.0, 0.0);
-            CHECK_VECTOR(out.force, 0.0, 0.0, 0.0, 0.0L);
-            assert_int_equal(out.contacts, 0);
-        }
+        feel_nothing(scene);
     }
 }
 
@@ -35,11 +39,7 @@ TEST(jump_of_what_was_on_its_way_to_the_hip_passes_by) {
     (void)stand_at(scene, 0.0, 0.0, 0.0);
     (void)stand_at(scene, 0.0, 0.0, 0.0);
     move_to(scene, knurl_scene_get_surface(scene, 0), &above, 0.0);
-    for (int k = 0; k < 5; k++) {
-        const knurl_tick_output out = stand_at(scene, 0.0, 0.0, 0.0);
-        CHECK_VECTOR(out.force, 0.0, 0.0, 0.0, 0.0L);
-        assert_int_equal(out.contacts, 0);
-    }
+    feel_nothing(scene);
 }
 
 /* A HIP that was in contact has a first tick with it: held up to 10 mm deep, no contact beyond; slid past at no speed.

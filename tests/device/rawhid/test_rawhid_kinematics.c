@@ -29,6 +29,13 @@ static void random_position(uint64_t *seed, double position[3]) {
     }
 }
 
+/* Angles at a random position. */
+static void random_angles(uint64_t *seed, double angles[3]) {
+    double position[3];
+    random_position(seed, position);
+    assert_int_equal(knurl_rawhid_inverse(&arm, position, angles), 1);
+}
+
 TEST(a_turn_of_a_motor_turns_its_body_by_the_ratio_of_the_diameters) {
     static const int16_t counts[3] = {2000, -1000, 500};
     double angles[3];
@@ -166,11 +173,9 @@ TEST(the_jacobian_is_how_differences_have_it) {
     const double h = 1e-6;
     uint64_t seed = 4;
     for (int i = 0; i < 2000; i++) {
-        double position[3];
         double angles[3];
         double jacobian[9];
-        random_position(&seed, position);
-        assert_int_equal(knurl_rawhid_inverse(&arm, position, angles), 1);
+        random_angles(&seed, angles);
         knurl_rawhid_jacobian(&arm, angles, jacobian);
         for (int joint = 0; joint < 3; joint++) {
             double more[3];
@@ -192,14 +197,12 @@ TEST(the_jacobian_is_how_differences_have_it) {
 TEST(the_currents_push_with_the_force_that_was_asked_for) {
     uint64_t seed = 5;
     for (int i = 0; i < 2000; i++) {
-        double position[3];
         double angles[3];
         double pushed[3];
         int16_t ma[3];
         const double force[3] = {random_between(&seed, -1.0, 1.0), random_between(&seed, -1.0, 1.0),
                                  random_between(&seed, -1.0, 1.0)};
-        random_position(&seed, position);
-        assert_int_equal(knurl_rawhid_inverse(&arm, position, angles), 1);
+        random_angles(&seed, angles);
         knurl_rawhid_currents(&arm, angles, force, ma);
         hid_sim_push(angles, ma, pushed);
         vec3_sub(pushed, force, pushed);
@@ -223,15 +226,13 @@ TEST(a_newton_to_the_right_in_the_middle_takes_531_milliamperes) {
 TEST(no_motor_gets_more_than_its_limit_and_the_force_keeps_its_direction) {
     uint64_t seed = 6;
     for (int i = 0; i < 5000; i++) {
-        double position[3];
         double angles[3];
         double pushed[3];
         double across[3];
         int16_t ma[3];
         const double force[3] = {random_between(&seed, -50.0, 50.0), random_between(&seed, -50.0, 50.0),
                                  random_between(&seed, -50.0, 50.0)};
-        random_position(&seed, position);
-        assert_int_equal(knurl_rawhid_inverse(&arm, position, angles), 1);
+        random_angles(&seed, angles);
         knurl_rawhid_currents(&arm, angles, force, ma);
         int greatest = 0;
         for (int joint = 0; joint < 3; joint++) {

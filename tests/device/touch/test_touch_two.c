@@ -20,11 +20,21 @@ static void end(hand *h) {
     knurl_device_close(h->device);
 }
 
+/* The other one's force is not touched by anything: 2 N. */
+static void start_both(hand *left, hand *right) {
+    start(left, "touch:Left Device", 1.0);
+    start(right, "touch:Right Device", 2.0);
+}
+
+static void end_both(hand *left, hand *right) {
+    end(left);
+    end(right);
+}
+
 TEST_WITH(each_device_gets_its_own_force_from_one_scheduler, stub_by_hand, stub_check) {
     hand left;
     hand right;
-    start(&left, "touch:Left Device", 1.0);
-    start(&right, "touch:Right Device", 2.0);
+    start_both(&left, &right);
     stub.turn(50);
     assert_true(stub.ask(0, STUB_STARTS) == 2.0); /* it is stopped while the second one is opened */
     assert_int_equal(left.push.ticks, 50);
@@ -49,15 +59,13 @@ TEST_WITH(each_device_gives_its_own_position, stub_by_hand, stub_check) {
     start(&right, "touch:Right Device", 0.0);
     stub.turn(100);
     CHECK_CLOSE(right.push.from[0] - left.push.from[0], 0.02, 1e-9); /* the same stroke, 20 mm aside */
-    end(&left);
-    end(&right);
+    end_both(&left, &right);
 }
 
 TEST_WITH(one_that_is_lost_leaves_the_other_as_it_is, stub_by_hand, stub_check) {
     hand left;
     hand right;
-    start(&left, "touch:Left Device", 1.0);
-    start(&right, "touch:Right Device", 2.0);
+    start_both(&left, &right);
     stub.turn(10);
     stub.set(STUB_LEFT, STUB_ABSENT, 1.0);
     stub.turn(20);
@@ -66,16 +74,14 @@ TEST_WITH(one_that_is_lost_leaves_the_other_as_it_is, stub_by_hand, stub_check) 
     assert_int_equal(right.push.ticks, 30);
     CHECK_CLOSE(stub.ask(STUB_RIGHT, STUB_TOLD), 2.0, 1e-12);
     assert_int_equal(stub_events(right.device, KNURL_FAULT_LOST, NULL), 0);
-    end(&left);
-    end(&right);
+    end_both(&left, &right);
 }
 
 /* More errors than one check removes: the rest appears in the other's frame. */
 TEST_WITH(an_error_is_blamed_on_the_device_that_it_is_about, stub_by_hand, stub_check) {
     hand left;
     hand right;
-    start(&left, "touch:Left Device", 1.0);
-    start(&right, "touch:Right Device", 2.0);
+    start_both(&left, &right);
     stub.turn(10);
     stub.set(STUB_LEFT, STUB_ERRORS, 40.0);
     stub.set(STUB_LEFT, STUB_ERROR, 0x0200);
@@ -85,8 +91,7 @@ TEST_WITH(an_error_is_blamed_on_the_device_that_it_is_about, stub_by_hand, stub_
     assert_int_equal(stub_events(right.device, KNURL_FAULT_REFUSED, NULL), 0);
     assert_int_equal(right.push.ticks, 13);
     CHECK_CLOSE(stub.ask(STUB_RIGHT, STUB_TOLD), 2.0, 1e-12);
-    end(&left);
-    end(&right);
+    end_both(&left, &right);
 }
 
 TEST_WITH(a_device_is_opened_once, stub_by_hand, stub_check) {
@@ -114,16 +119,14 @@ TEST_WITH(a_current_device_that_another_thread_changes_mixes_nothing_up, stub_by
     hand left;
     hand right;
     stub.set(STUB_RIGHT, STUB_JUMP, 0.02);
-    start(&left, "touch:Left Device", 1.0);
-    start(&right, "touch:Right Device", 2.0);
+    start_both(&left, &right);
     stub.set(0, STUB_DRIFTS, 1.0);
     stub.turn(50);
     CHECK_CLOSE(right.push.from[0] - left.push.from[0], 0.02, 0.001);
     CHECK_CLOSE(stub.ask(STUB_LEFT, STUB_TOLD), 1.0, 1e-12);
     CHECK_CLOSE(stub.ask(STUB_RIGHT, STUB_TOLD), 2.0, 1e-12);
     stub.set(0, STUB_DRIFTS, 0.0);
-    end(&left);
-    end(&right);
+    end_both(&left, &right);
 }
 
 /* Opened and closed while the other runs: for ThreadSanitizer, too. HD has one current device. */
