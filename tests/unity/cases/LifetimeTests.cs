@@ -12,6 +12,21 @@ namespace Knurl.Tests
     [TestFixture]
     public class LifetimeTests : PlayerSuite
     {
+        KnurlDevice TouchPlate()
+        {
+            MakeSurface(Plate());
+            KnurlDevice d = StartResting();
+            Until(() => d.Touched != null, "touched");
+            return d;
+        }
+
+        KnurlDevice PressPlate()
+        {
+            KnurlDevice d = TouchPlate();
+            Until(() => d.Force.magnitude > 0.05f, "pressed");
+            return d;
+        }
+
         [Test]
         public void PlayModeWithoutDomainReloadStartsAnewEachTime()
         {
@@ -53,9 +68,7 @@ namespace Knurl.Tests
         public void QuittingStopsEverything()
         {
             int before = Threads();
-            MakeSurface(Plate());
-            KnurlDevice d = StartResting();
-            Until(() => d.Touched != null, "touched");
+            TouchPlate();
             Assert.That(Threads(), Is.GreaterThan(before), "there is something to count");
             Player.Quit();
             NoMoreThreadsThan(before);
@@ -86,9 +99,7 @@ namespace Knurl.Tests
         public void LeavingASceneStopsItsDevice()
         {
             int before = Threads();
-            MakeSurface(Plate());
-            KnurlDevice d = StartResting();
-            Until(() => d.Touched != null, "touched");
+            KnurlDevice d = TouchPlate();
             Player.LeaveScene();
             Assert.That(d == null);
             NoMoreThreadsThan(before);
@@ -115,9 +126,7 @@ namespace Knurl.Tests
         public void AnAssemblyReloadStopsEverything()
         {
             int before = Threads();
-            MakeSurface(Plate());
-            KnurlDevice d = StartResting();
-            Until(() => d.Touched != null, "touched");
+            KnurlDevice d = TouchPlate();
             Player.ReloadAssemblies();
             Assert.That(d.Running, Is.False);
             NoMoreThreadsThan(before);
@@ -127,9 +136,7 @@ namespace Knurl.Tests
         public void TheEventBeforeAnAssemblyReloadIsEnough()
         {
             int before = Threads();
-            MakeSurface(Plate());
-            KnurlDevice d = StartResting();
-            Until(() => d.Touched != null, "touched");
+            KnurlDevice d = TouchPlate();
             Assert.That(Player.AssemblyReload, Is.Not.Null, "somebody listens");
             Player.AssemblyReload(); // and no OnDisable at all
             NoMoreThreadsThan(before);
@@ -140,9 +147,7 @@ namespace Knurl.Tests
         public void TheEventBeforePlayModeEndsIsEnough()
         {
             int before = Threads();
-            MakeSurface(Plate());
-            KnurlDevice d = StartResting();
-            Until(() => d.Touched != null, "touched");
+            KnurlDevice d = TouchPlate();
             Assert.That(Player.PlayModeChanged, Is.Not.Null, "somebody listens");
             Player.PlayModeChanged((int)UnityEditor.PlayModeStateChange.ExitingPlayMode);
             NoMoreThreadsThan(before);
@@ -222,9 +227,7 @@ namespace Knurl.Tests
         [Test]
         public void APausedApplicationLetsGo()
         {
-            MakeSurface(Plate());
-            KnurlDevice d = StartResting();
-            Until(() => d.Force.magnitude > 0.05f, "pressed");
+            KnurlDevice d = PressPlate();
             Player.Pause(true);
             Until(() => d.Force == Vector3.zero, "no force");
             Assert.That(d.Running, "and holds on to the device");
@@ -235,9 +238,7 @@ namespace Knurl.Tests
         [Test]
         public void AGameThatStandsStillLetsGo()
         {
-            MakeSurface(Plate());
-            KnurlDevice d = StartResting();
-            Until(() => d.Force.magnitude > 0.05f, "pressed");
+            KnurlDevice d = PressPlate();
             Time.timeScale = 0f;
             Until(() => d.Force == Vector3.zero, "no force");
             Assert.That(d.Running, "and holds on to the device");
@@ -265,9 +266,7 @@ namespace Knurl.Tests
         [Test]
         public void AGameThatHangsHasNoForce()
         {
-            MakeSurface(Plate());
-            KnurlDevice d = StartResting();
-            Until(() => d.Force.magnitude > 0.05f, "pressed");
+            KnurlDevice d = PressPlate();
             Assert.That(Waits(() => d.Force == Vector3.zero), "no force, without a frame");
             Until(() => d.Force.magnitude > 0.05f, "and comes back");
         }
