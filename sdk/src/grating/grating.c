@@ -61,5 +61,6 @@ void knurl_grating_step(const knurl_grating *grating, knurl_grating_state *state
                                        {velocity[0], velocity[1]},
                                        1.0 / grating->update_rate_hz,
                                        position != NULL};
+    output->reserved = 0;
     knurl_grating_run(grating, state, &input, output);
 }

@@ -31,7 +31,6 @@ static inline void knurl_grating_run(const knurl_grating *grating, knurl_grating
     output->temporal_frequency = frequency;
     output->event = KNURL_NO_EVENT;
     output->above_nyquist = frequency > 0.5 * grating->update_rate_hz;
-    output->reserved = 0;
     output->height = state->playing ? knurl_grating_play(state, output)
                                     : knurl_methods[grating->method].height(grating, state, input->position, v,
                                                                             input->period, input->has_position, output);

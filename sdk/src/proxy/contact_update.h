@@ -19,8 +19,7 @@ void knurl_contacts_find(knurl_contacts *contacts, const knurl_broad_phase *phas
  * KNURL_TICK_CONTACTS_FULL, KNURL_TICK_SQUEEZED, KNURL_TICK_VISIT_LIMIT. */
 static inline void knurl_contacts_update(knurl_contacts *c, const knurl_broad_phase *phase,
                                          const knurl_broad_index *index, const double position[3], uint32_t *flags) {
-    const int clear =
-        KNURL_LIKELY(c->has_previous) && knurl_candidates_are_clear(&c->candidates, phase, position, c->proxy.depth);
+    const int clear = knurl_candidates_are_clear(&c->candidates, phase, position, c->proxy.depth);
     if (c->now.count > 0 || !clear || knurl_contacts_have_slipped(c)) {
         knurl_contacts_find(c, phase, index, position, clear, flags);
     }

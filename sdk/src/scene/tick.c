@@ -166,7 +166,10 @@ static inline double render_contact(knurl_hip *hip, const knurl_tick_input *inpu
     knurl_wall_init(&wall, &c->record->material, c->contact.z, &c->candidate->guard);
     knurl_guard_before(&hip->guard, &wall, &out->flags);
     knurl_force_law(&motion, c, plays, &wall, &share);
-    const double step = knurl_guard_after(&hip->guard, &wall);
+    double step = 0.0;
+    if (plays || wall.contact->height != 0.0) { /* else it was smooth, and still is */
+        step = knurl_guard_after(&hip->guard, &wall);
+    }
     if (plays) {
         count_grating(hip, c, &share, events);
     }
