@@ -37,7 +37,7 @@ def install():
 
 
 def inspect(path):
-    """What the tool makes of the first surface, and what it says."""
+    """The surfaces in the output of `knurl inspect`, and its messages."""
     done = subprocess.run([KNURL, "inspect", path], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=True)
     return json.loads(done.stdout)["surfaces"], done.stderr
 

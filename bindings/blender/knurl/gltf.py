@@ -29,7 +29,7 @@ class glTF2ExportUserExtension:  # pylint: disable=invalid-name
     def gather_material_hook(self, gltf2_material, blender_material, _settings):
         _export(gltf2_material, blender_material)
 
-    def gather_mesh_hook(self, gltf2_mesh, blender_mesh, *_rest):  # what follows differs from version to version
+    def gather_mesh_hook(self, gltf2_mesh, blender_mesh, *_rest):  # later parameters differ between versions
         _export(gltf2_mesh, blender_mesh)
 
     def gather_node_hook(self, gltf2_node, blender_object, _settings):

@@ -91,7 +91,7 @@ PROPERTIES = {
 
 
 def warnings_of(owner, mesh):
-    """Sentences for the panel. mesh: that is seen with the material, or None."""
+    """Sentences for the panel. mesh: the mesh shown with the material, or None."""
     found = []
     felt = [1.0 / f for f in tag.frequencies(owner) if f > 0.0]
     if any(period < 2.0 * ENCODER for period in felt):
