@@ -19,6 +19,7 @@ typedef struct knurl_shape_functions {
                  knurl_contact *contact) KNURL_NONBLOCKING;
     void (*anchor)(const void *geometry, const double rotation[9], knurl_contact *anchor);
     void (*facts)(const void *geometry, knurl_shape_facts *facts);
+    /* 1 if contact can meet a tick's limit of visits; reach: m, of the crests */
     int (*exceeds_visits)(const void *geometry, double reach, uint32_t max_visits);
     uint32_t *(*other_users)(void *geometry); /* atomic */
     void (*destroy)(knurl_heap *heap, void *geometry);
@@ -110,11 +111,6 @@ static inline int knurl_shape_rates(const knurl_shape *shape, const knurl_contac
  * would meet first. rotation (row-major): from the shape's axes to the scene's. */
 static inline void knurl_shape_anchor(const knurl_shape *shape, const double rotation[9], knurl_contact *anchor) {
     shape->functions->anchor(shape->geometry, rotation, anchor);
-}
-
-/* 1 if contact can meet a tick's limit of visits; reach: m, of the crests. */
-static inline int knurl_shape_exceeds_visits(const knurl_shape *shape, double reach, uint32_t max_visits) {
-    return shape->functions->exceeds_visits(shape->geometry, reach, max_visits);
 }
 
 static inline void knurl_shape_get_facts(const knurl_shape *shape, knurl_shape_facts *facts) {

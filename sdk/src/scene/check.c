@@ -125,7 +125,8 @@ static void check_place(const inspection *on, const knurl_surface_data *surface)
 
 /* Crests that reach farther than a mesh is wide, or stacks of overlapping triangles. */
 static void check_visits(const inspection *on, const knurl_surface_data *surface, uint32_t max_visits) {
-    if (knurl_shape_exceeds_visits(&surface->shape, surface->record->reach, max_visits)) {
+    const knurl_shape *shape = &surface->shape;
+    if (shape->functions->exceeds_visits(shape->geometry, surface->record->reach, max_visits)) {
         say(on, KNURL_LIMIT_VISITS,
             "use fewer triangles, remove those that lie over one another, or lower the crests below the mesh's width",
             "in places contact looks at more than the %u triangles and nodes that a tick has time for",
