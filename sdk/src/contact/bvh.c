@@ -1,22 +1,22 @@
 /* Binned surface-area-heuristic build (Wald 2007) with an explicit stack. Only the axis with the widest spread of
  * centres is split: a third of the binning. SPDX-License-Identifier: MIT */
-#include "contact/bvh.h"
+#include "contact/bvh_search.h"
 
 #include <string.h>
 
 #define BINS      16
 #define SAH_DEPTH 32 /* deeper ranges are halved, so that 2^26 triangles stay within KNURL_BVH_DEPTH_MAX */
 
-/* Padded to four floats: loops over four become one instruction. */
+/* The fourth numbers are 0. */
 typedef struct box {
-    float min[4];
-    float max[4];
+    knurl_float4 min, max;
 } box;
 
-typedef struct item {
-    box bounds;
-    uint32_t place;
-} item;
+/* What is sorted: boxes, and their places in the caller's array. */
+typedef struct items {
+    box *boxes;
+    uint32_t *places;
+} items;
 
 typedef struct range {
     uint32_t begin, end;
@@ -38,11 +38,9 @@ typedef struct tree {
 
 static const box empty_box = {{3.4e38f, 3.4e38f, 3.4e38f, 0.0f}, {-3.4e38f, -3.4e38f, -3.4e38f, 0.0f}};
 
-static void box_add(box *into, const box *other) {
-    for (int axis = 0; axis < 4; axis++) {
-        into->min[axis] = other->min[axis] < into->min[axis] ? other->min[axis] : into->min[axis];
-        into->max[axis] = other->max[axis] > into->max[axis] ? other->max[axis] : into->max[axis];
-    }
+static inline void box_add(box *into, const box *other) {
+    into->min = knurl_float4_min(other->min, into->min);
+    into->max = knurl_float4_max(other->max, into->max);
 }
 
 static double box_area(const box *b) {
@@ -52,25 +50,23 @@ static double box_area(const box *b) {
     return x < 0.0 ? 0.0 : x * y + y * z + z * x;
 }
 
-static float centre(const item *i, int axis) {
-    return 0.5f * i->bounds.min[axis] + 0.5f * i->bounds.max[axis];
+static inline knurl_float4 centre(const box *b) {
+    return 0.5f * b->min + 0.5f * b->max;
 }
 
-static uint32_t bin_of(const item *i, const split *s) {
-    const float bin = (centre(i, s->axis) - s->low) * s->scale;
+static inline uint32_t bin_of(const box *b, const split *s) {
+    const float bin = (centre(b)[s->axis] - s->low) * s->scale;
     return !(bin > 0.0f) ? 0 : bin >= (float)(BINS - 1) ? BINS - 1 : (uint32_t)bin; /* NaN, from huge boxes, is 0 */
 }
 
 /* Computes a range's bounds, and a split along the widest axis of its centres; choose_bin() sets its bin. */
-static split measure(const item *items, const range *r, box *bounds) {
+static split measure(const box *boxes, const range *r, box *bounds) {
     box centres = empty_box;
     box sum = empty_box;
     for (uint32_t i = r->begin; i < r->end; i++) {
-        box at;
-        for (int axis = 0; axis < 4; axis++) {
-            at.min[axis] = at.max[axis] = 0.5f * items[i].bounds.min[axis] + 0.5f * items[i].bounds.max[axis];
-        }
-        box_add(&sum, &items[i].bounds);
+        const knurl_float4 middle = centre(&boxes[i]);
+        const box at = {middle, middle};
+        box_add(&sum, &boxes[i]);
         box_add(&centres, &at);
     }
     *bounds = sum;
@@ -89,7 +85,7 @@ static split measure(const item *items, const range *r, box *bounds) {
 }
 
 /* Picks the cheapest of the 15 splits between bins. */
-static void choose_bin(const item *items, const range *r, split *s) {
+static void choose_bin(const box *boxes, const range *r, split *s) {
     box bounds[BINS];
     uint32_t counts[BINS] = {0};
     double right_area[BINS];
@@ -97,8 +93,8 @@ static void choose_bin(const item *items, const range *r, split *s) {
         bounds[i] = empty_box;
     }
     for (uint32_t i = r->begin; i < r->end; i++) {
-        const uint32_t bin = bin_of(&items[i], s);
-        box_add(&bounds[bin], &items[i].bounds);
+        const uint32_t bin = bin_of(&boxes[i], s);
+        box_add(&bounds[bin], &boxes[i]);
         counts[bin]++;
     }
     box sweep = empty_box;
@@ -122,32 +118,35 @@ static void choose_bin(const item *items, const range *r, split *s) {
 }
 
 /* Moves the items of the left side to the front; returns the first index of the right side. */
-static uint32_t partition(item *items, const range *r, const split *s) {
+static uint32_t partition(const items *list, const range *r, const split *s) {
     uint32_t left = r->begin;
     for (uint32_t i = r->begin; i < r->end; i++) {
-        if (bin_of(&items[i], s) < s->bin) {
-            const item moved = items[i];
-            items[i] = items[left];
-            items[left++] = moved;
+        if (bin_of(&list->boxes[i], s) < s->bin) {
+            const box moved = list->boxes[i];
+            const uint32_t place = list->places[i];
+            list->boxes[i] = list->boxes[left];
+            list->places[i] = list->places[left];
+            list->boxes[left] = moved;
+            list->places[left++] = place;
         }
     }
     return left;
 }
 
 /* Writes a range's node; returns the index to split at, or r->end for a leaf. */
-static uint32_t make_node(item *items, const range *r, uint32_t leaf_size, knurl_bvh_node *node) {
+static uint32_t make_node(const items *list, const range *r, uint32_t leaf_size, knurl_bvh_node *node) {
     box bounds;
-    split s = measure(items, r, &bounds);
-    memcpy(node->min, bounds.min, sizeof node->min);
-    memcpy(node->max, bounds.max, sizeof node->max);
+    split s = measure(list->boxes, r, &bounds);
+    memcpy(node->min, &bounds.min, sizeof node->min);
+    memcpy(node->max, &bounds.max, sizeof node->max);
     const uint32_t count = r->end - r->begin;
     if (count <= leaf_size) {
         return r->end;
     }
     if (r->depth < SAH_DEPTH && s.scale > 0.0f) {
-        choose_bin(items, r, &s);
+        choose_bin(list->boxes, r, &s);
     }
-    return s.bin > 0 ? partition(items, r, &s) : r->begin + count / 2; /* equal centres, or very deep: halve */
+    return s.bin > 0 ? partition(list, r, &s) : r->begin + count / 2; /* equal centres, or very deep: halve */
 }
 
 /* Makes room for one more node; 0 if out of memory. */
@@ -166,7 +165,7 @@ static int grow(knurl_heap *heap, tree *t) {
     return nodes != NULL;
 }
 
-static int build(knurl_heap *heap, item *items, uint32_t count, uint32_t leaf_size, tree *t) {
+static int build(knurl_heap *heap, const items *list, uint32_t count, uint32_t leaf_size, tree *t) {
     range stack[KNURL_BVH_DEPTH_MAX + 1];
     uint32_t top = 0;
     stack[top++] = (range){0, count, UINT32_MAX, 0};
@@ -180,7 +179,7 @@ static int build(knurl_heap *heap, item *items, uint32_t count, uint32_t leaf_si
         if (r.parent != UINT32_MAX) {
             t->nodes[r.parent].first = index;
         }
-        const uint32_t middle = make_node(items, &r, leaf_size, node);
+        const uint32_t middle = make_node(list, &r, leaf_size, node);
         if (middle == r.end) {
             node->first = r.begin;
             node->count = r.end - r.begin;
@@ -196,28 +195,25 @@ static int build(knurl_heap *heap, item *items, uint32_t count, uint32_t leaf_si
 knurl_result knurl_bvh_build(knurl_heap *heap, const knurl_box *boxes, uint32_t count, uint32_t leaf_size,
                              uint32_t *order, knurl_bvh_node **nodes, uint32_t *node_count) {
     tree t = {NULL, 0, 2 * (count / leaf_size) + 16}; /* leaves are usually more than half full */
-    item *items = knurl_heap_alloc(heap, count, sizeof *items);
+    const items list = {knurl_heap_alloc(heap, count, sizeof *list.boxes), order};
     t.nodes = knurl_heap_alloc(heap, t.capacity, sizeof *t.nodes);
     knurl_bvh_node *made = NULL;
-    if (items && t.nodes) {
+    if (list.boxes && t.nodes) {
         for (uint32_t i = 0; i < count; i++) {
-            memcpy(items[i].bounds.min, boxes[i].min, sizeof boxes[i].min);
-            memcpy(items[i].bounds.max, boxes[i].max, sizeof boxes[i].max);
-            items[i].place = i;
+            memcpy(&list.boxes[i].min, boxes[i].min, sizeof boxes[i].min);
+            memcpy(&list.boxes[i].max, boxes[i].max, sizeof boxes[i].max);
+            order[i] = i;
         }
-        if (build(heap, items, count, leaf_size, &t)) {
+        if (build(heap, &list, count, leaf_size, &t)) {
             made = knurl_heap_alloc(heap, t.count, sizeof *made); /* exact size */
         }
     }
     if (made) {
         memcpy(made, t.nodes, t.count * sizeof *made);
-        for (uint32_t i = 0; i < count; i++) {
-            order[i] = items[i].place;
-        }
         *nodes = made;
         *node_count = t.count;
     }
     knurl_heap_free(heap, t.nodes);
-    knurl_heap_free(heap, items);
+    knurl_heap_free(heap, list.boxes);
     return made ? KNURL_OK : KNURL_ERROR_MEMORY;
 }

@@ -68,14 +68,27 @@ static void rotate_lowest_first(const draft *d, const uint32_t corners[3], uint3
     out[2] = w[(first + 2) % 3];
 }
 
+/* Corners of the caller's triangle that begins at index i. */
+static void read_corners(const knurl_mesh_desc *desc, uint64_t i, uint32_t out[3]) {
+    for (uint32_t k = 0; k < 3; k++) {
+        out[k] = desc->indices ? desc->indices[i + k] : (uint32_t)(i + k);
+    }
+}
+
+/* A triangle's first slot in the table of duplicates, the same for both windings. own: receives its corners, welded. */
+static uint64_t slot_of(const draft *d, const knurl_seeded_hash *hash, const uint32_t corners[3], uint64_t mask,
+                        uint32_t own[3]) {
+    rotate_lowest_first(d, corners, own);
+    const int ascending = own[1] < own[2];
+    return knurl_seeded_hash_of(hash, own[0], own[ascending ? 1 : 2], own[ascending ? 2 : 1]) & mask;
+}
+
 /* Compares the triangle after the last with those kept; adds it to the table if its corners are new. Returns 0 if they
  * are new, 1 for a duplicate, -1 for a duplicate with opposite winding. */
 static int find_duplicate(const draft *d, const knurl_seeded_hash *hash, uint32_t *table, uint64_t mask) {
     const uint32_t triangle = d->mesh->triangle_count;
     uint32_t own[3];
-    rotate_lowest_first(d, &d->corners[3 * (size_t)triangle], own);
-    const int ascending = own[1] < own[2]; /* the same slot for both windings */
-    uint64_t slot = knurl_seeded_hash_of(hash, own[0], own[ascending ? 1 : 2], own[ascending ? 2 : 1]) & mask;
+    uint64_t slot = slot_of(d, hash, &d->corners[3 * (size_t)triangle], mask, own);
     for (; table[slot] != 0; slot = (slot + 1) & mask) {
         uint32_t other[3];
         rotate_lowest_first(d, &d->corners[3 * (size_t)(table[slot] - 1)], other);
@@ -93,6 +106,9 @@ static int find_duplicate(const draft *d, const knurl_seeded_hash *hash, uint32_
 /* If triangles with a reversed twin are at most this share of a mesh's area, the twins are mistakes; sheets that are
  * meant to be felt from both sides have a twin nearly everywhere. A common test head has 1 twin in 968 triangles. */
 #define FEW_TWINS 0.1
+
+/* Corners: the table's slots are anywhere in memory, and are fetched so far ahead. */
+#define AHEAD 24
 
 /* Keeps the triangles that can be felt: those with an area (others have no normal and hold nothing up), and the first
  * of several with the same corners. */
@@ -112,8 +128,11 @@ static knurl_result keep_triangles(draft *d) {
     knurl_seeded_hash_init(&hash, d->heap->seed);
     for (uint64_t i = 0; i < corners; i += 3) {
         uint32_t *to = &d->corners[3 * (size_t)mesh->triangle_count];
-        for (uint32_t k = 0; k < 3; k++) {
-            to[k] = desc->indices ? desc->indices[i + k] : (uint32_t)(i + k);
+        read_corners(desc, i, to);
+        if (i + AHEAD < corners) {
+            uint32_t next[3], own[3];
+            read_corners(desc, i + AHEAD, next);
+            __builtin_prefetch(&table[slot_of(d, &hash, next, slots - 1, own)]);
         }
         const double size = area_of(d, to);
         const int duplicate = size > 0.0 ? find_duplicate(d, &hash, table, slots - 1) : 1;

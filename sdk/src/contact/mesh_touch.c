@@ -5,12 +5,14 @@
 
 #include "base/vec3.h"
 #include "contact/closest_point.h"
+#include "contact/mesh_search.h"
 
 /* Triangles of a leaf that are tested at a time. */
 #define LEAF_MAX 8
 
 /* A triangle with its bounding planes: its own and one through each edge, facing outwards; unit normals. */
 typedef struct bounded {
+    knurl_search_box box; /* and the seam around it */
     double corners[3][3];
     double normal[3];
     double sides[3][3]; /* sides[k]: at the edge opposite corner k */
@@ -27,8 +29,15 @@ static int has_rim(const knurl_mesh *mesh, uint32_t triangle) {
 static void bound(const knurl_mesh *mesh, uint32_t triangle, bounded *b) {
     knurl_triangle t;
     knurl_mesh_triangle(mesh, triangle, &t);
+    double low[3], high[3];
     b->triangle = triangle;
     b->has_rim = has_rim(mesh, triangle);
+    for (int axis = 0; axis < 3; axis++) {
+        const double p = t.corners[0][axis], q = t.corners[1][axis], r = t.corners[2][axis];
+        low[axis] = knurl_min(p, knurl_min(q, r)) - mesh->seam;
+        high[axis] = knurl_max(p, knurl_max(q, r)) + mesh->seam;
+    }
+    knurl_search_box_set(low, high, &b->box);
     vec3_copy(t.normal, b->normal);
     for (int k = 0; k < 3; k++) {
         double edge[3];
@@ -157,30 +166,21 @@ static int touch(const knurl_mesh *mesh, const bounded *a, uint32_t triangle, co
             edges_touch(mesh, a, shared[0], &b));
 }
 
-static int boxes_meet(const double a[3][3], const double b[3][3], double seam) {
-    for (int axis = 0; axis < 3; axis++) {
-        const double a0 = a[0][axis], a1 = a[1][axis], a2 = a[2][axis];
-        const double b0 = b[0][axis], b1 = b[1][axis], b2 = b[2][axis];
-        const double a_low = a0 < a1 ? (a0 < a2 ? a0 : a2) : (a1 < a2 ? a1 : a2);
-        const double a_high = a0 > a1 ? (a0 > a2 ? a0 : a2) : (a1 > a2 ? a1 : a2);
-        const double b_low = b0 < b1 ? (b0 < b2 ? b0 : b2) : (b1 < b2 ? b1 : b2);
-        const double b_high = b0 > b1 ? (b0 > b2 ? b0 : b2) : (b1 > b2 ? b1 : b2);
-        if (a_low > b_high + seam || b_low > a_high + seam) {
-            return 0;
-        }
-    }
-    return 1;
-}
-
 /* Counts the touching pairs of `own` and a leaf's triangles with higher numbers. */
 static uint32_t count_pairs(const knurl_mesh *mesh, const bounded *own, uint32_t count, const knurl_bvh_node *leaf) {
     uint32_t pairs = 0;
     for (uint32_t i = leaf->first; i < leaf->first + leaf->count; i++) {
-        double corners[3][3];
-        knurl_mesh_corners(mesh, i, corners);
+        const uint32_t *v = &mesh->triangles[3 * (size_t)i];
+        const knurl_float4 a = knurl_float4_vertex(mesh, v[0]), b = knurl_float4_vertex(mesh, v[1]);
+        const knurl_float4 c = knurl_float4_vertex(mesh, v[2]);
+        const knurl_float4 low = knurl_float4_min(a, knurl_float4_min(b, c));
+        const knurl_float4 high = knurl_float4_max(a, knurl_float4_max(b, c));
         for (uint32_t k = 0; k < count && own[k].triangle < i; k++) {
-            pairs += boxes_meet((const double (*)[3])own[k].corners, (const double (*)[3])corners, mesh->seam) &&
-                     touch(mesh, &own[k], i, (const double (*)[3])corners);
+            if (!knurl_mask4_any((own[k].box.low > high) | (own[k].box.high < low))) {
+                double corners[3][3];
+                knurl_mesh_corners(mesh, i, corners);
+                pairs += (uint32_t)touch(mesh, &own[k], i, (const double (*)[3])corners);
+            }
         }
     }
     return pairs;
@@ -200,10 +200,12 @@ static uint32_t count_of_leaf(const knurl_mesh *mesh, const knurl_bvh_node *leaf
     uint32_t pairs = 0;
     bounded own[LEAF_MAX];
     double low[3], high[3];
+    knurl_search_box box;
     for (int axis = 0; axis < 3; axis++) {
         low[axis] = (double)leaf->min[axis] - mesh->seam;
         high[axis] = (double)leaf->max[axis] + mesh->seam;
     }
+    knurl_search_box_set(low, high, &box);
     for (uint32_t first = leaf->first; first < leaf->first + leaf->count; first += LEAF_MAX) {
         const uint32_t left = leaf->first + leaf->count - first;
         const uint32_t count = left < LEAF_MAX ? left : LEAF_MAX;
@@ -216,12 +218,14 @@ static uint32_t count_of_leaf(const knurl_mesh *mesh, const knurl_bvh_node *leaf
             const uint32_t index = stack[--top];
             --*steps;
             const knurl_bvh_node *node = &mesh->nodes[index];
-            if (!knurl_bvh_meets(node, low, high)) {
+            if (!knurl_search_box_meets_node(&box, node)) {
                 continue;
             }
             if (node->count == 0) {
                 stack[top++] = node->first;
-                stack[top++] = index + 1;
+                if (&mesh->nodes[node->first] > leaf) { /* else all of its left child comes before the leaf */
+                    stack[top++] = index + 1;
+                }
             } else if (node->first >= leaf->first) {
                 const uint64_t tests = (uint64_t)count * node->count;
                 *steps -= tests < *steps ? tests : *steps;
