@@ -81,6 +81,29 @@ TEST(a_line_grating_sounds_at_f_t_and_its_odd_harmonics) {
     }
 }
 
+/* Above f_h/6 bandlimited plays the fundamental alone, which swings to 4/pi A: as loud as the square wave that it is
+ * of. */
+TEST(a_fundamental_is_as_loud_as_its_square_wave) {
+    static const double speeds[] = {180.0, 230.0, 310.0, 370.0, 440.0};
+    for (size_t i = 0; i < COUNT_OF(speeds); i++) {
+        static float window[WINDOW];
+        const double hz = speeds[i];
+        knurl_audio *audio = make_audio(0.0);
+        for (int k = 0; k < 600; k++) {
+            knurl_tick_output tick = tick_on(hz * k / 1000.0 + 0.1, 0.0, hz);
+            tick.height = 4.0 / PI * AMPLITUDE * cos(2.0 * PI * (hz * k / 1000.0 + 0.1));
+            tick.force[2] = STIFFNESS * (DEPTH + tick.height);
+            knurl_audio_take(&tick, audio);
+            memmove(window, window + A_TICK, (WINDOW - A_TICK) * sizeof *window);
+            knurl_audio_fill(audio, window + WINDOW - A_TICK, A_TICK);
+        }
+        knurl_audio_destroy(audio);
+        const double expected = 4.0 / PI * LEVEL * passed(hz);
+        print_message("%g Hz: %.2f dB\n", hz, 20.0 * log10(line_at(window, hz) / expected));
+        CHECK_CLOSE(line_at(window, hz), expected, 0.06 * expected); /* 0.5 dB */
+    }
+}
+
 TEST(inharmonic_parts_are_60_db_lower) {
     static const double frequencies[] = {70.0, 250.0, 470.0, 990.0, 2410.0, 4870.0};
     static float window[WINDOW];

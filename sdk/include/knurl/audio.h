@@ -42,8 +42,8 @@ KNURL_API void knurl_audio_take(const knurl_tick_output *output, void *audio) KN
  *   frequencies. Aliases are 60 dB lower, even if f_t is above f_h/2. Between two ticks the HIP moves evenly over the
  *   grating; its motion is smoothed by 4 ms, because encoders quantise it.
  * - Loudness: the change of the force at changes of the height, over the last 32 to 64 ms: plus and minus 0.25 N, or
- *   more, play at +-0.5. Touch, lift and changes of loudness fade over up to 5 ms. The sound is exactly 0 before the
- *   first tick, and within 0.5 s of the last motion.
+ *   more, play at +-0.5. A fundamental alone is as loud as its square wave. Touch, lift and changes of loudness
+ *   fade over up to 5 ms. The sound is exactly 0 before the first tick, and within 0.5 s of the last motion.
  * - Latency: a sample comes latency_s + 2 ticks + 4.2 ms after its tick, plus at most 20 ms and another `count` samples
  *   if the audio thread was late; ticks beyond that are skipped. A difference of up to 0.5 % between the two threads'
  *   clocks is compensated by playing faster or slower. */
