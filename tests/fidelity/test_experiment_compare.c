@@ -195,6 +195,36 @@ TEST(people_s_answers_are_only_gone_on_with_by_their_own_session) {
     (void)remove(path);
 }
 
+/* Its rows name the device, in as many bytes as its URI has. */
+TEST(a_session_goes_on_with_its_own_device_only_however_long_its_name) {
+    const char *path = tool_path("device.csv");
+    char uri[1000] = "fake:?seed=1";
+    while (strlen(uri) < 900) {
+        (void)strcat(uri, "&seed=1");
+    }
+    const char *const devices[] = {uri, uri, "fake"}; /* begun, gone on with, and begun anew: answers are simulated */
+    for (size_t i = 0; i < COUNT_OF(devices); i++) {
+        process p = RUN("1", "--fast", "--seed", "9", "--device", devices[i], "--out", path);
+        assert_int_equal(p.exit_code, 0);
+        process_free(&p);
+        char *text = read_file(path);
+        size_t rows = 0;
+        for (const char *at = strchr(text, '\n') + 1; *at; at = strchr(at, '\n') + 1, rows++) {
+            const char *named = strstr(at, ",SIMULATED,");
+            assert_non_null(named);
+            assert_int_equal(strncmp(named + 11, devices[i], strlen(devices[i])), 0);
+            assert_int_equal(named[11 + strlen(devices[i])], ',');
+        }
+        assert_true(rows >= 72);
+        char *last = strrchr(text, '\n'); /* all but the last row */
+        *last = '\0';
+        *(strrchr(text, '\n') + 1) = '\0';
+        write_text(path, text);
+        free(text);
+    }
+    (void)remove(path);
+}
+
 /* As an editor may leave it. */
 TEST(a_file_whose_last_line_has_no_end_is_gone_on_with) {
     const char *whole = tool_path("ended.csv");

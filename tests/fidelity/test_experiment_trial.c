@@ -54,6 +54,7 @@ typedef struct bench {
     uint64_t starts[8];         /* writes before each loop */
     uint64_t press_at, move_at; /* reads; UINT64_MAX: never */
     uint32_t held, pressed;     /* buttons before and from press_at on */
+    uint32_t first;             /* at press_at alone, if not 0 */
 } bench;
 
 static bench *of(knurl_device *base) {
@@ -80,7 +81,7 @@ static knurl_result start(knurl_device *device, double rate) {
 static knurl_result read_it(knurl_device *device, knurl_device_sample *sample) {
     bench *b = of(device);
     memset(sample, 0, sizeof *sample);
-    sample->buttons = b->reads >= b->press_at ? b->pressed : b->held;
+    sample->buttons = b->first && b->reads == b->press_at ? b->first : b->reads >= b->press_at ? b->pressed : b->held;
     sample->position[0] = b->reads == b->move_at ? 0.021 : 0.0; /* out of the sphere, once */
     b->reads++;
     return KNURL_OK;
@@ -228,7 +229,44 @@ TEST(a_button_answers_when_it_goes_down_after_the_question) {
     device.press_at = 120;
     assert_int_equal(exp_drive(&s, &run, &o), TOOL_OK);
     assert_int_equal(o.chosen, 0);
-    assert_true(o.rt_s >= 0.070 && o.rt_s < 2.0);
+    CHECK_CLOSE(o.rt_s, 0.070, 0.0015); /* to the tick of the press, whenever that was noticed */
+}
+
+/* The question is opened by `ready`, 150 ms after it could be. */
+static void ready_later(exp_run *run, uint64_t tick, const knurl_device_sample *sample, double force[3]) {
+    (void)sample;
+    (void)force;
+    if (tick == 200) {
+        __atomic_store_n(&run->ready, 1u, __ATOMIC_RELEASE);
+    }
+}
+
+TEST(the_time_of_an_answer_begins_when_the_question_was_opened) {
+    const exp_session s = begin(1, EXP_BUTTONS);
+    exp_run run = short_run();
+    exp_outcome o;
+    memset(&o, 0, sizeof o);
+    run.force = ready_later;
+    run.ready = 0;
+    device.pressed = 2;
+    device.press_at = 300;
+    assert_int_equal(exp_drive(&s, &run, &o), TOOL_OK);
+    assert_int_equal(o.chosen, 1);
+    CHECK_CLOSE(o.rt_s, 0.100, 0.0015);
+}
+
+TEST(two_buttons_that_go_down_a_tick_apart_stop_the_trial_and_answer_nothing) {
+    const exp_session s = begin(1, EXP_BUTTONS);
+    exp_run run = short_run();
+    exp_outcome o;
+    memset(&o, 0, sizeof o);
+    o.chosen = 7;
+    device.first = 1;
+    device.pressed = 3;
+    device.press_at = 120;
+    assert_int_equal(exp_drive(&s, &run, &o), TOOL_OK);
+    assert_int_equal(o.stopped, 1);
+    assert_int_equal(o.chosen, 7);
 }
 
 TEST(keys_answer_and_the_input_s_end_is_an_error) {

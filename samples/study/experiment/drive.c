@@ -6,6 +6,9 @@
 
 volatile sig_atomic_t exp_interrupted;
 
+/* Ticks from a press to an answer: two buttons that go down within them stop the trial. */
+#define TOGETHER 50
+
 /* Every tick: checks both buttons, sets the force, then checks whether a question is open, then a button. [haptic
  * thread] */
 static void on_tick(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user) {
@@ -22,9 +25,14 @@ static void on_tick(uint64_t tick, const knurl_device_sample *sample, double for
     if (tick < run->question_tick || !__atomic_load_n(&run->ready, __ATOMIC_ACQUIRE)) {
         return;
     }
-    if (run->asking && !run->pressed && (fresh & 3u) != 0) {
-        __atomic_store_n(&run->pressed, fresh & 1u ? 1u : 2u, __ATOMIC_RELEASE);
+    if (run->asking && !run->pressing && (fresh & 3u) != 0) {
+        run->pressing = fresh & 1u ? 1u : 2u;
+        run->pressed_tick = tick;
     }
+    if (run->pressing && tick - run->pressed_tick >= TOGETHER) {
+        __atomic_store_n(&run->pressed, run->pressing, __ATOMIC_RELEASE);
+    }
+    run->asked_tick = run->asking ? run->asked_tick : tick;
     __atomic_store_n(&run->asking, 1u, __ATOMIC_RELEASE);
 }
 
@@ -76,7 +84,8 @@ static int wait_for_end(const exp_session *session, exp_run *run, knurl_loop *lo
     }
     if (answer > 0) {
         outcome->chosen = answer - 1;
-        outcome->rt_s = ((double)ticks_of(loop) - (double)run->question_tick) / EXP_RATE;
+        const uint64_t at = session->answers == EXP_BUTTONS ? run->pressed_tick : ticks_of(loop);
+        outcome->rt_s = ((double)at - (double)run->asked_tick) / EXP_RATE;
     }
     knurl_loop_stop(loop);
     if (asked) {

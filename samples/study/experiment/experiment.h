@@ -17,7 +17,7 @@ enum { EXP_KEYBOARD = 0, EXP_BUTTONS = 1, EXP_SIMULATED = 2 };
 #define EXP_PERIODS     12                  /* at most, in one experiment */
 #define EXP_TRAINING    6                   /* trials of the training session (IV-A4) */
 #define EXP_MAX_TRIALS  (EXP_TRAINING + 72) /* 3 blocks x 2 intensities x 12 periods */
-#define EXP_TEXT_MAX    65536               /* bytes of a session's file */
+#define EXP_TEXT_MAX    (1 << 20)           /* bytes of a session's file: each row names the device's URI */
 #define EXP_TRAINING_MM 4.0                 /* the gratings' period in experiment 4's training */
 #define EXP_SIMULATION "SIMULATED answers: a formula of this program's own, not a person; they say nothing about people"
 
@@ -164,9 +164,12 @@ typedef struct exp_run {
     uint32_t left;    /* 1: the trial must be restarted */
     uint32_t ready;   /* 1: `force` allows the question */
     uint32_t asking;  /* 1: the question is open */
-    uint32_t pressed; /* 0, or the button that was pressed meanwhile: 1, 2 */
+    uint32_t pressed; /* 0, or the button that was pressed meanwhile, and not together with the other: 1, 2 */
     uint32_t stopped; /* 1: both buttons were down; the force is zero from then on */
-    uint32_t buttons; /* the last state; haptic thread only */
+    uint32_t buttons; /* the last state; haptic thread only, as the next */
+    uint32_t pressing;
+    uint64_t asked_tick;   /* the question was opened, read after `asking` */
+    uint64_t pressed_tick; /* read after `pressed` */
 } exp_run;
 
 /* Runs a loop to its end: an answer, the hand's leaving, both buttons, or end_tick. TOOL_FAILURE after printing the
@@ -205,6 +208,7 @@ typedef struct exp_record {
     int32_t side;     /* preferred: 0 the first, 1 the second */
     int32_t excluded; /* 1: exp_exclude() found a reason */
     char subject[32];
+    char device[256]; /* the beginning of its URI */
 } exp_record;
 
 typedef struct exp_records {

@@ -149,6 +149,7 @@ int record_read(const record_place *at, char *const *cells, exp_record *r) {
         return refuse(at, "subject", "1 to 31 characters", cells[SUBJECT]);
     }
     memcpy(r->subject, cells[SUBJECT], strlen(cells[SUBJECT]) + 1);
+    (void)snprintf(r->device, sizeof r->device, "%.*s", (int)sizeof r->device - 1, cells[DEVICE]);
     r->simulated = strcmp(cells[ANSWERS], exp_answer_names[EXP_SIMULATED]) == 0;
     if (!r->simulated && strcmp(cells[ANSWERS], "keyboard") != 0 && strcmp(cells[ANSWERS], "buttons") != 0) {
         return refuse(at, "answers", "keyboard, buttons or SIMULATED", cells[ANSWERS]);

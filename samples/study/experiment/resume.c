@@ -18,8 +18,8 @@ static int is_beginning(const exp_session *s, const exp_records *records, const 
     for (size_t i = 0; same && i < records->count; i++) {
         const exp_record *r = &records->rows[i];
         same = exp_is_of(r, s->design) && strcmp(r->subject, s->subject) == 0 && r->seed == s->seed &&
-               r->sound == s->sound && r->simulated == (s->answers == EXP_SIMULATED) &&
-               is_trial(r, &trials[i], (uint32_t)i + 1);
+               strncmp(r->device, s->uri, sizeof r->device - 1) == 0 && r->sound == s->sound &&
+               r->simulated == (s->answers == EXP_SIMULATED) && is_trial(r, &trials[i], (uint32_t)i + 1);
     }
     return same;
 }
