@@ -102,10 +102,7 @@ static void align_by_tangents(knurl_sheet *sheet, knurl_plane *plane, const char
 /* Sums over the triangles so far. */
 typedef struct uv_sums {
     double area;
-    double lengths[2];  /* of |dP/du|, |dP/dv| */
-    double inverse[2];  /* of 1 / |dP/du|, 1 / |dP/dv| */
-    double shortest[2]; /* |dP/du|, |dP/dv| */
-    double longest[2];
+    double lengths[2];   /* of |dP/du|, |dP/dv| */
     double slopes[2][2]; /* of the gradients of u and v, in the sheet's x and y */
     int mirrored;        /* 1: v runs against n x x; the same for all triangles */
 } uv_sums;
@@ -137,16 +134,10 @@ static int add_uvs(const knurl_sheet *sheet, uint32_t triangle, uv_sums *sums) {
     }
     const double along = sqrt((v2 * x1 - v1 * x2) * (v2 * x1 - v1 * x2) + (v2 * y1 - v1 * y2) * (v2 * y1 - v1 * y2));
     const double across = sqrt((u1 * x2 - u2 * x1) * (u1 * x2 - u2 * x1) + (u1 * y2 - u2 * y1) * (u1 * y2 - u2 * y1));
-    const double lengths[2] = {along / fabs(det), across / fabs(det)};
     sums->mirrored = mirrored;
     sums->area += area;
-    sums->lengths[0] += area * lengths[0];
+    sums->lengths[0] += area * (along / fabs(det));
     sums->lengths[1] += area * across / fabs(det); /* in this order: traces are compared bit by bit */
-    for (int i = 0; i < 2; i++) {
-        sums->inverse[i] += area / lengths[i];
-        sums->shortest[i] = fmin(sums->shortest[i], lengths[i]);
-        sums->longest[i] = fmax(sums->longest[i], lengths[i]);
-    }
     sums->slopes[0][0] += u1 * y2 - u2 * y1;
     sums->slopes[0][1] += u2 * x1 - u1 * x2;
     sums->slopes[1][0] += v1 * y2 - v2 * y1;
@@ -178,7 +169,8 @@ static int fit_map(const knurl_sheet *sheet, const double scale[2], knurl_plane 
 /* uvs that are affine to the limit over the whole sheet have one direction: there is no test of each triangle's dP/du,
  * which on a fine mesh is as rough as its floats. */
 static void map_by_uvs(knurl_sheet *sheet, knurl_plane *plane, const char **why) {
-    uv_sums sums = {.shortest = {HUGE_VAL, HUGE_VAL}};
+    uv_sums sums;
+    memset(&sums, 0, sizeof sums);
     for (uint32_t i = 0; i < sheet->count; i++) {
         if (!add_uvs(sheet, sheet->kept[i], &sums)) {
             *why = "mesh: some of its uvs have no area, or are mirrored against the rest";
@@ -194,12 +186,7 @@ static void map_by_uvs(knurl_sheet *sheet, knurl_plane *plane, const char **why)
         *why = "mesh: its uvs are not affine";
         return;
     }
-    for (int i = 0; i < 2; i++) {
-        plane->stretch[i][0] = fabs(scale[i]) / sums.longest[i];
-        plane->stretch[i][1] = fabs(scale[i]) * sums.inverse[i] / sums.area;
-        plane->stretch[i][2] = fabs(scale[i]) / sums.shortest[i];
-    }
-    plane->has_coordinates = 1;
+    plane->has_coordinates = 1; /* metres in both directions: no stretch */
 }
 
 void knurl_sheet_coordinates(knurl_sheet *sheet, const double axis[3], knurl_plane *plane, const char **why) {
