@@ -1,6 +1,7 @@
 /* Serial ports with termios. SPDX-License-Identifier: MIT */
-#include "device/permission.h"
 #include "device/rawhid/serial.h"
+
+#include "device/permission.h"
 
 #if defined(_WIN32)
 
