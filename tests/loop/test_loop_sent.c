@@ -124,6 +124,21 @@ TEST_WITH(the_ramp_at_the_end_is_told_step_by_step_and_is_no_tick, NULL, end_ben
     }
 }
 
+TEST_WITH(a_halt_in_the_ramp_at_the_end_is_reported_as_zero, NULL, end_bench) {
+    bench_open(&b, DEPTH);
+    b.watches_writes = 1;
+    bench_create(&b);
+    assert_int_equal(knurl_loop_step(b.loop, 39), KNURL_OK);
+    knurl_loop_stop(b.loop);
+    knurl_device_halt(&b.device);
+    assert_int_equal(knurl_loop_step(b.loop, 100), KNURL_OK);
+    assert_true(b.writes > 45);
+    for (uint64_t k = 39; k < b.writes; k++) {
+        CHECK_VECTOR(b.written[k], 0.0, 0.0, 0.0, 0.0);
+        CHECK_VECTOR(b.told[k], 0.0, 0.0, 0.0, 0.0);
+    }
+}
+
 /* A HIP's maximum is at most its device's. */
 TEST_WITH(what_is_told_is_never_more_than_the_device_can_play, NULL, end_bench) {
     knurl_hip_desc hip;
