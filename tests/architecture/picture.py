@@ -32,7 +32,7 @@ BOXES = {
     "edits": (330, 206, 180, "edits, questions", "from other threads",
               ["scene/edit", "scene/check", "scene/scene_hips", "scene/surface_info", "scene/surface_queries",
                "scene/find_closest", "stroke/walk", "stroke/lay"]),
-    "state": (675, 288, 100, "scene, hip", "all that is kept", ["scene/scene", "hip/hip", "hip/hip_workspace"]),
+    "state": (675, 288, 100, "scene, hip", "all that is kept", ["scene/scene", "hip/hip", "hip/hip_workspace", "hip/response"]),
     "broad_phase": (238, 372, 108, "broad_phase", "what is near", ["surface/broad_phase"]),
     "candidates": (363, 372, 108, "candidates", "what may be met", ["proxy/candidate", "proxy/candidates", "proxy/hip_clock"]),
     "contact_update": (488, 372, 108, "contact_update", "begin, hold, end", ["proxy/contact_update"]),
@@ -62,7 +62,7 @@ BOXES = {
     "mesh_query": (654, 760, 160, "mesh_query", "what is nearest, crossed", ["contact/mesh_query", "contact/mesh_cast", "contact/mesh_search",
                    "contact/leaf_bound"]),
     "contact": (254, 818, 128, "contact", "question and answer", ["contact/contact", "contact/visits"]),
-    "bvh": (390, 818, 104, "bvh", "a tree of boxes", ["contact/bvh", "contact/bvh_search"]),
+    "bvh": (390, 818, 104, "bvh", "a tree of boxes", ["contact/bvh", "contact/bvh_search", "contact/float4"]),
     "mesh": (516, 818, 108, "mesh, corner", "a corner table", ["contact/mesh", "contact/corner"]),
     "closest_point": (665, 818, 138, "closest_point", "of one triangle", ["contact/closest_point", "contact/facet"]),
 }

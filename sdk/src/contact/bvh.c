@@ -1,6 +1,8 @@
 /* Binned surface-area-heuristic build (Wald 2007) with an explicit stack. Only the axis with the widest spread of
  * centres is split: a third of the binning. SPDX-License-Identifier: MIT */
-#include "contact/bvh_search.h"
+#include "contact/bvh.h"
+
+#include "contact/float4.h"
 
 #include <string.h>
 

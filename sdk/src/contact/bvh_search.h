@@ -4,35 +4,9 @@
 #define KNURL_SRC_BVH_SEARCH_H
 
 #include "contact/bvh.h"
+#include "contact/float4.h"
 
 #include <string.h>
-
-#if defined(__SSE2__)
-#include <emmintrin.h>
-#endif
-
-/* GCC and Clang vectors: x, y, z and an unused number. */
-typedef float knurl_float4 __attribute__((vector_size(16)));
-typedef int32_t knurl_mask4 __attribute__((vector_size(16)));
-
-/* The smaller and the greater of each two numbers; `b` if one is NaN. */
-static inline knurl_float4 knurl_float4_min(knurl_float4 a, knurl_float4 b) {
-#if defined(__SSE2__)
-    return _mm_min_ps(a, b);
-#else
-    const knurl_mask4 less = a < b;
-    return (knurl_float4)(((knurl_mask4)a & less) | ((knurl_mask4)b & ~less));
-#endif
-}
-
-static inline knurl_float4 knurl_float4_max(knurl_float4 a, knurl_float4 b) {
-#if defined(__SSE2__)
-    return _mm_max_ps(a, b);
-#else
-    const knurl_mask4 more = a > b;
-    return (knurl_float4)(((knurl_mask4)a & more) | ((knurl_mask4)b & ~more));
-#endif
-}
 
 /* A box, rounded outwards. */
 typedef struct knurl_search_box {
@@ -80,15 +54,6 @@ static inline float knurl_search_node_distance2(const knurl_search_point *point,
     memcpy(&min, node, sizeof min);
     memcpy(&max, (const char *)node + sizeof min, sizeof max);
     return knurl_search_distance2(point, min, max);
-}
-
-/* 1 if a comparison is true in x, y or z. */
-static inline int knurl_mask4_any(knurl_mask4 mask) {
-#if defined(__SSE2__)
-    return (_mm_movemask_ps((__m128)mask) & 7) != 0;
-#else
-    return (mask[0] | mask[1] | mask[2]) != 0;
-#endif
 }
 
 static inline int knurl_search_box_meets_node(const knurl_search_box *box, const knurl_bvh_node *node) {
