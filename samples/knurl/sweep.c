@@ -222,7 +222,7 @@ knurl_result sweep_run(knurl_device *device, double rate, int simulated, const v
     s.rate = rate;
     s.newtons = fmin(SWEEP_FORCE_MAX, fmin(info.max_force, info.continuous_force));
     plan(&s);
-    s.positions = calloc((size_t)s.ticks, sizeof *s.positions);
+    s.positions = s.ticks > 0 ? calloc((size_t)s.ticks, sizeof *s.positions) : NULL;
     failed = failed ? failed
              : s.positions
                  ? measure(device, &s, simulated, interrupted, result)

@@ -200,7 +200,8 @@ TEST(a_session_goes_on_with_its_own_device_only_however_long_its_name) {
     const char *path = tool_path("device.csv");
     char uri[1000] = "fake:?seed=1";
     while (strlen(uri) < 900) {
-        (void)strcat(uri, "&seed=1");
+        const size_t used = strlen(uri);
+        (void)snprintf(uri + used, sizeof uri - used, "&seed=1");
     }
     const char *const devices[] = {uri, uri, "fake"}; /* begun, gone on with, and begun anew: answers are simulated */
     for (size_t i = 0; i < COUNT_OF(devices); i++) {

@@ -46,9 +46,9 @@ static double sensitivity(double hz) {
 
 /* Of a square wave's harmonics, as far as the response is known. */
 static double strength_at(const response *r, double hz) {
-    const double last = r->rows[r->count - 1].hz;
+    const double last = r->count > 0 ? r->rows[r->count - 1].hz : 0.0;
     double power = 0.0;
-    for (double n = 1.0; n == 1.0 || n * hz <= last; n += 2.0) {
+    for (int n = 1; n == 1 || n * hz <= last; n += 2) {
         const double felt = response_at(r, n * hz) * sensitivity(n * hz) / n;
         power += felt * felt;
     }
@@ -205,11 +205,10 @@ static knurl_result parse(const char *file, uint64_t size, response *r) {
 }
 
 knurl_result knurl_gains_from_response(const char *file, uint64_t size, knurl_gain *gains) {
-    response r;
+    response r = {.count = 0};
     if (KNURL_IS_NULL(file) || KNURL_IS_NULL(gains)) {
         return KNURL_ERROR_ARGUMENT;
     }
-    r.count = 0;
     const knurl_result result = parse(file, size, &r);
     if (!result) {
         find_gains(&r, gains);
