@@ -17,14 +17,15 @@
 #define BENCH_FRAME_RATE     120.0 /* Hz: of the game's moves of surfaces */
 #define BENCH_TIMER_READINGS 10000
 
-#define BENCH_STIFFNESS  800.0    /* N/m: the same as in the measurement of CHAI3D */
-#define BENCH_DEPTH      0.001    /* m */
-#define BENCH_REACH      0.02     /* m either side of the origin: a stroke of 40 mm */
-#define BENCH_PEAK_SPEED 0.25     /* m/s */
-#define BENCH_PERIOD     0.001    /* m: of the grating */
-#define BENCH_AMPLITUDE  0.0002   /* m */
-#define BENCH_TILE       0.008    /* m: the side of BENCH_FIELD's tiles, of which there are 100 x 100 */
-#define BENCH_CROWD_TILE 0.0015   /* m: of BENCH_CROWD's, 40 x 40: more than 100 within a HIP's search radius of 10 mm \
+#define BENCH_STIFFNESS  800.0  /* N/m: the same as in the measurement of CHAI3D */
+#define BENCH_DEPTH      0.001  /* m */
+#define BENCH_REACH      0.02   /* m either side of the origin: a stroke of 40 mm */
+#define BENCH_PEAK_SPEED 0.25   /* m/s */
+#define BENCH_PERIOD     0.001  /* m: of the grating */
+#define BENCH_AMPLITUDE  0.0002 /* m */
+#define BENCH_TILE       0.008  /* m: the side of BENCH_FIELD's tiles, of which there are 100 x 100 */
+#define BENCH_CROWD_TILE                                                                                               \
+    0.0015                        /* m: of BENCH_CROWD's, 40 x 40: more than 100 within a HIP's search radius of 10 mm \
                                    */
 #define BENCH_FRICTION   0.3      /* Coulomb coefficient */
 #define BENCH_RESOLUTION 0.055e-3 /* m: the Touch's, for FOAW */
@@ -36,6 +37,7 @@ enum {
     BENCH_EMPTY,
     BENCH_PLANE,
     BENCH_MESH,
+    BENCH_CURVED, /* a mesh that is felt smooth */
     BENCH_FIELD,
     BENCH_MOVING_FIELD, /* a thousand of its tiles move */
     BENCH_CROWD,
@@ -62,7 +64,7 @@ typedef struct bench_case {
     int shape;          /**< BENCH_FOAW to _WORST_PLANES */
     int finish;         /**< BENCH_TEXTURED, _SMOOTH or _FRICTIONAL */
     int32_t method;     /**< KNURL_METHOD_ */
-    uint32_t triangles; /**< BENCH_MESH: about as many; BENCH_CORNER: planes, 2 or 3 */
+    uint32_t triangles; /**< BENCH_MESH, _CURVED: about as many; BENCH_CORNER: planes, 2 or 3 */
     uint32_t hips;      /**< number of HIPs: the first is timed, another thread ticks the others in turn */
     int paced;          /**< 1: in a loop at 1 kHz; 0: as fast as possible */
     int estimates; /**< 1: positions in a device's counts, from which FOAW estimates the velocity; 0: it is given */

@@ -31,6 +31,7 @@ const bench_case bench_cases[] = {
     WARM("plane_friction", BENCH_PLANE, BENCH_FRICTIONAL, KNURL_METHOD_S2, 0),
     MESH("mesh_1k", 1000),
     MESH("mesh_10k", 10000),
+    WARM("curved_10k", BENCH_CURVED, BENCH_TEXTURED, KNURL_METHOD_S2, 10000),
     MESH("mesh_100k", 100000),
     FOAW("mesh_100k_foaw", BENCH_MESH, BENCH_TEXTURED, KNURL_METHOD_BANDLIMITED, 100000),
     MESH("mesh_1m", 1000000),

@@ -46,12 +46,13 @@ static knurl_result add_plane(knurl_scene *scene, const knurl_material_desc *m, 
 }
 
 static knurl_result add_mesh(knurl_scene *scene, const knurl_material_desc *m, const double position[3],
-                             const knurl_mesh_desc *mesh) {
+                             const knurl_mesh_desc *mesh, int32_t smooth) {
     knurl_surface_id surface;
     knurl_surface_desc d;
     knurl_surface_desc_init(&d, sizeof d);
     memcpy(d.position, position, sizeof d.position);
     d.mesh = mesh;
+    d.smooth = smooth;
     d.material = m;
     return knurl_scene_add_surface(scene, &d, &surface);
 }
@@ -74,7 +75,7 @@ static knurl_result add_field(knurl_scene *scene, const knurl_material_desc *m, 
         const int column = i % tiles - tiles / 2; /* one is in the middle, under the stroke */
         const int row = i / tiles - tiles / 2;
         const double position[3] = {tile * column, tile * row, 0.0};
-        result = (column + row) % 2 ? add_mesh(scene, m, position, &mesh)
+        result = (column + row) % 2 ? add_mesh(scene, m, position, &mesh, KNURL_SMOOTH_OFF)
                                     : add_plane(scene, m, position, 0.5 * tile, 0.5 * tile);
     }
     return result;
@@ -112,7 +113,9 @@ static knurl_result add_surfaces(knurl_scene *scene, const bench_case *c, const 
     case BENCH_PLANE:
         return add_plane(scene, &m, origin, SHEET_HALF_X, SHEET_HALF_Y);
     case BENCH_MESH:
-        return add_mesh(scene, &m, origin, mesh);
+        return add_mesh(scene, &m, origin, mesh, KNURL_SMOOTH_OFF);
+    case BENCH_CURVED:
+        return add_mesh(scene, &m, origin, mesh, KNURL_SMOOTH_ON);
     case BENCH_FIELD:
     case BENCH_MOVING_FIELD:
         return add_field(scene, &m, TILES, BENCH_TILE);
@@ -162,7 +165,7 @@ static knurl_result build(bench_stage *stage, const bench_case *c) {
     knurl_scene_desc d;
     wavy_sheet sheet;
     memset(&sheet, 0, sizeof sheet);
-    if (c->shape == BENCH_MESH && wavy_sheet_make(c->triangles, &sheet)) {
+    if ((c->shape == BENCH_MESH || c->shape == BENCH_CURVED) && wavy_sheet_make(c->triangles, &sheet)) {
         return knurl_fail(KNURL_ERROR_MEMORY, "a sheet of %u triangles: no memory", (unsigned)c->triangles);
     }
     const knurl_mesh_desc mesh = wavy_sheet_desc(&sheet);

@@ -32,7 +32,7 @@ static void place(const bench_case *c, uint32_t hip, double seconds, double out[
     out[0] = x;
     out[1] = y;
     out[2] = 0.0;
-    if (c->shape == BENCH_MESH) {
+    if (c->shape == BENCH_MESH || c->shape == BENCH_CURVED) {
         wavy_sheet_point(x, y, out, normal);
     }
     for (int axis = 0; axis < 3; axis++) {
