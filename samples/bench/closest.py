@@ -2,9 +2,9 @@
 """The closest point of a mesh: Knurl beside Embree and FCPW, in one process, on one core, warm, in turns.
 
 usage: closest.py [--library build/release/sdk/libknurl.a] [--triangles N ...] [--points N] [--rounds N] [--json]
-Needs numpy, embreex and fcpw from PyPI, and a C compiler; says what is missing and leaves with 77. The least of the
+Needs numpy, embreex and fcpw from PyPI, and a C compiler; if they are missing, it says so and exits with 77. The least of the
 rounds counts. `alone`: each query by itself, up to 1 m. `followed`: it begins at the last answer, Embree and FCPW with
-the distance to that as their radius. All must agree with each other to 1e-5 of the mesh's size, which is float32's.
+the distance to that as their radius. If they disagree by more than 1e-6 m (float32's), it says so.
 
 SPDX-License-Identifier: MIT
 """
@@ -16,6 +16,7 @@ import os
 import subprocess
 import sys
 import tempfile
+import time
 
 os.sched_setaffinity(0, {max(os.sched_getaffinity(0))}) # before any library starts its threads
 
@@ -95,7 +96,6 @@ class Fcpw:
         self.scene.build(fcpw.aggregate_type.bvh_surface_area, True)
 
     def run(self, points, mode, distances):
-        import time
         radii = np.full(len(points), RADIUS ** 2, "f4")
         rows = np.asfortranarray(points.astype("f4"))
         if mode == FOLLOWED:
