@@ -32,6 +32,9 @@ int knurl_contacts_add(knurl_contacts *c, knurl_candidate *candidate, const knur
     knurl_pose_vector_to_parent(a->pose, a->contact.normal, candidate->normal);
     a->normal = candidate->normal;
     a->is_unfelt = 0;
-    a->felt.parts = touched->parts;
+    a->felt.parts.count = 0;
+    if (touched->parts.count > 0) {
+        a->felt.parts = touched->parts;
+    }
     return 1;
 }
