@@ -20,7 +20,7 @@ static void end(hand *h) {
     knurl_device_close(h->device);
 }
 
-/* The other one's force is not touched by anything: 2 N. */
+/* With forces of 1 N and 2 N. */
 static void start_both(hand *left, hand *right) {
     start(left, "touch:Left Device", 1.0);
     start(right, "touch:Right Device", 2.0);
