@@ -75,7 +75,7 @@ static const help_command commands[] = {
       {"--axis", "X,Y,Z", "the direction across the ridges in object space, instead of the UVs'"},
       {"--coordinates", "auto|box", "box: ridges by positions instead of UVs"},
       {"--method", METHODS, "the spatial method"},
-      {"--smooth", "yes|no", "no: felt as its triangles, though the mesh has normals"},
+      {"--smooth", "yes|no", "no: as its triangles, though the mesh has normals; yes: smooth, though it has none"},
       {"--remove", "", "removes the tag"},
       {"--list", "", "prints what can be tagged, and its tags, as JSON"},
       {"--out", "FILE", "writes the tagged file there"},

@@ -236,7 +236,8 @@ static knurl_result call_find_closest(void) {
     const double below[3] = {0.03, 0.03, -0.02};
     knurl_surface_point point;
     knurl_surface_point_init(&point, sizeof point);
-    const knurl_result result = knurl_scene_find_closest(scene, at, 0.1, &point);
+    knurl_result result = knurl_scene_find_closest(scene, at, 0.1, &point);
+    result = result ? result : knurl_scene_find_closest_batch(scene, at, 1, 0.1, &point);
     return result ? result : knurl_scene_cast_ray(scene, at, below, &point);
 }
 
@@ -331,7 +332,7 @@ TEST(a_scene_is_as_it_was_wherever_memory_runs_out) {
         {"knurl_scene_set_workspace()", make_full, call_set_workspace, free_scene, scene_state, 0, 0},
         {"knurl_scene_find_surface()", make_full, call_find_surface, free_scene, scene_state, 0, 0},
         {"... of an unknown name", make_full, call_find_unknown, free_scene, scene_state, 1, 0},
-        {"knurl_scene_find_closest(), _cast_ray()", make_full, call_find_closest, free_scene, scene_state, 0, 0},
+        {"knurl_scene_find_closest(), _find_closest_batch(), _cast_ray()", make_full, call_find_closest, free_scene, scene_state, 0, 0},
         {"knurl_scene_check_surface()", make_full, call_check_surface, free_scene, scene_state, 0, 0},
         {"knurl_scene_get_...(), _collect(), _tick()", make_full, call_getters, free_scene, NULL, 0, 0},
         {"gratings, estimators, workspaces, names", NULL, call_small_things, NULL, NULL, 0, 0},
