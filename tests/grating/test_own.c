@@ -199,7 +199,7 @@ TEST(a_number_that_no_method_has_is_refused) {
 TEST(there_are_16_and_the_next_is_refused) {
     static double zero;
     int32_t method = 0;
-    char name[32];
+    char name[40];
     knurl_result result = KNURL_OK;
     int added = 0;
     while (!result && added < 100) {
