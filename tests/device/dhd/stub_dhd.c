@@ -234,11 +234,14 @@ int DHD_CALL dhdSetForceAndTorqueAndGripperForce(double fx, double fy, double fz
 }
 
 int DHD_CALL dhdErrorGetLast(void) {
-    return stub.error;
+    lock();
+    const int error = stub.error;
+    (void)end(0);
+    return error;
 }
 
 const char *DHD_CALL dhdErrorGetLastStr(void) {
-    return stub.error == DHD_ERROR_COM ? "communication error" : "some error";
+    return dhdErrorGetLast() == DHD_ERROR_COM ? "communication error" : "some error";
 }
 
 void stub_dhd_inject(int fault) {
