@@ -81,8 +81,11 @@ PROPERTIES = {
         ("auto", "UVs", "By axis, tangents or UVs; by positions if there are none"),
         ("box", "Box", "By positions in object space")]),
     "knurl_play": _choice("method", "Method", "How ridges are played", [
-        ("default", "Default", "As the application has it"), ("bandlimited", "bandlimited", "In step and without false tones"),
-        ("S1", "S1", "The paper's, by position"), ("S2", "S2", "The paper's, by velocity")]),
+        ("default", "Default", "As the application has it"),
+        ("S1", "S1", "The paper's, by position"),
+        ("S2", "S2", "The paper's, by velocity"),
+        ("bandlimited", "bandlimited", "In step and without false tones"),
+    ]),
     "knurl_flat": BoolProperty(
         name="Faceted", description="Felt as its triangles, though the mesh is shaded smooth",
         get=lambda self: not self.get(tag.PREFIX + "smooth", True),
