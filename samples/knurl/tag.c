@@ -102,16 +102,17 @@ static int read_one(keys *k, const char *option, const char *key, const char *te
 }
 
 static int read_axis(keys *k) {
-    double axis[3];
-    int length = 0;
-    if (sscanf(k->axis, "%lf,%lf,%lf%n", &axis[0], &axis[1], &axis[2], &length) != 3 || k->axis[length] ||
-        !isfinite(axis[0] + axis[1] + axis[2])) {
-        return tool_error(TOOL_USAGE, "tag: --axis: expected X,Y,Z in object space, found '%s'", k->axis);
-    }
+    const char *text = k->axis;
+    char *end = NULL;
     put_key(k, "axis");
     for (int i = 0; i < 3; i++) {
+        const double component = strtod(text, &end);
+        if (end == text || !isfinite(component) || *end != (i < 2 ? ',' : '\0')) {
+            return tool_error(TOOL_USAGE, "tag: --axis: expected X,Y,Z in object space, found '%s'", k->axis);
+        }
         put(k, i ? "," : "[");
-        put_number(k, axis[i]);
+        put_number(k, component);
+        text = end + 1;
     }
     put(k, "]");
     return TOOL_OK;

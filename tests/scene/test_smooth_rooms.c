@@ -221,6 +221,47 @@ static void furnish(room *r, uint64_t *seed, int as_one, int is_smooth) {
 /* m: a ring's mesh is this far off the ring. */
 #define FORM 3e-5
 
+/* A new direction for 20 ticks: towards a solid, or along and into what is touched. */
+static void choose_velocity(const room *r, uint64_t *seed, const double at[3], const knurl_tick_output *last,
+                            double velocity[3]) {
+    random_direction(seed, velocity);
+    if (last->contacts) {
+        add3(velocity, -random_between(seed, 0.0, 1.0), last->normal, velocity);
+    } else {
+        const solid *s = &r->solids[random_integer(seed, 0, SOLIDS - 1)];
+        double way[3];
+        add3(s->at.position, -1.0, at, way);
+        add3(velocity, 50.0, way, velocity);
+    }
+    const double scale = random_between(seed, 0.02, last->contacts ? 0.4 : 1.0) / (length3(velocity) + 1e-9);
+    for (int i = 0; i < 3; i++) {
+        velocity[i] *= scale;
+    }
+}
+
+/* Judges a tick. Returns 0 if the press ends: the HIP is lost, or caught between two solids. */
+static int judge(const room *r, const knurl_tick_output *last, const knurl_tick_output *out, double depth,
+                 double tolerance, tally *t) {
+    const double force = length3(out->force), moved = r->moves ? 2.0 * TICK_WAY : 0.0;
+    const double bound = out->contacts * K * (distance3(out->hip, out->proxy) + r->bulge + tolerance);
+    const double proxy = depth_in_room(r, out->proxy);
+    const int is_lost = depth > tolerance && !(force > 0.0);
+    if (out->flags & KNURL_TICK_SQUEEZED) {
+        t->squeezed++;
+        return 0;
+    }
+    t->ticks++;
+    t->felt += force > 0.0;
+    t->lost += is_lost;
+    t->inside += out->contacts > 0 && proxy > tolerance;
+    t->deepest = out->contacts > 0 ? fmax(t->deepest, proxy) : t->deepest;
+    t->unbounded += !(force <= bound + 1e-12);
+    const double jump = distance3(out->force, last->force) / (K * (distance3(out->hip, last->hip) + moved) + 1e-9);
+    t->jumps += jump > 3.0;
+    t->jump = fmax(t->jump, jump);
+    return !is_lost;
+}
+
 static void press(room *r, uint64_t *seed, double tolerance, tally *t) {
     double at[3], velocity[3] = {0.0, 0.0, 0.0};
     do {
@@ -230,21 +271,9 @@ static void press(room *r, uint64_t *seed, double tolerance, tally *t) {
     } while (depth_in_room(r, at) > -0.001);
     configure_plainly(r->scene, 0);
     knurl_tick_output last = tick_at(r->scene, at[0], at[1], at[2]);
-    for (int k = 0; k < 400; k++) {
+    for (int k = 0, goes_on = 1; k < 400 && goes_on; k++) {
         if (k % 20 == 0) {
-            random_direction(seed, velocity);
-            if (last.contacts) {
-                add3(velocity, -random_between(seed, 0.0, 1.0), last.normal, velocity);
-            } else {
-                const solid *s = &r->solids[random_integer(seed, 0, SOLIDS - 1)];
-                double way[3];
-                add3(s->at.position, -1.0, at, way);
-                add3(velocity, 50.0, way, velocity);
-            }
-            const double scale = random_between(seed, 0.02, last.contacts ? 0.4 : 1.0) / (length3(velocity) + 1e-9);
-            for (int i = 0; i < 3; i++) {
-                velocity[i] *= scale;
-            }
+            choose_velocity(r, seed, at, &last, velocity);
         }
         double next[3];
         add3(at, 0.001, velocity, next);
@@ -265,26 +294,8 @@ static void press(room *r, uint64_t *seed, double tolerance, tally *t) {
             move_solids(r, seed);
         }
         const knurl_tick_output out = tick_at(r->scene, at[0], at[1], at[2]);
-        const double depth = depth_in_room(r, at), force = length3(out.force), moved = r->moves ? 2.0 * TICK_WAY : 0.0;
-        const double bound = out.contacts * K * (distance3(out.hip, out.proxy) + r->bulge + tolerance);
-        const double proxy = depth_in_room(r, out.proxy);
-        if (out.flags & KNURL_TICK_SQUEEZED) {
-            t->squeezed++;
-            return; /* caught between two solids, and let go */
-        }
-        t->ticks++;
-        t->felt += force > 0.0;
-        t->lost += depth > tolerance && !(force > 0.0);
-        t->inside += out.contacts > 0 && proxy > tolerance;
-        t->deepest = out.contacts > 0 ? fmax(t->deepest, proxy) : t->deepest;
-        t->unbounded += !(force <= bound + 1e-12);
-        const double jump = distance3(out.force, last.force) / (K * (distance3(out.hip, last.hip) + moved) + 1e-9);
-        t->jumps += jump > 3.0;
-        t->jump = fmax(t->jump, jump);
+        goes_on = judge(r, &last, &out, depth_in_room(r, at), tolerance, t);
         last = out;
-        if (depth > tolerance && !(force > 0.0)) {
-            return;
-        }
     }
 }
 

@@ -74,11 +74,12 @@ TEST(a_trace_is_exact_if_the_user_says_so) {
 }
 
 TEST(an_exact_trace_is_exact_on_a_device_with_a_long_name) {
+    static const char key[] = "tremor=0&";
     char uri[2048] = "fake:?";
-    while (strlen(uri) < 2000) {
-        (void)strcat(uri, "tremor=0&");
+    for (size_t used = strlen(uri); used < 2000; used += strlen(key)) {
+        memcpy(uri + used, key, sizeof key);
     }
-    (void)strcat(uri, "tremor=0");
+    uri[strlen(uri) - 1] = '\0'; /* the last ampersand */
     process p = RUN_TOOL("run", write_plate("plate.gltf", TAG), "--fast", "--trace", record("counts.csv", 0.055e-3, 17),
                          "--device", uri, "--exact");
     check_done(&p);

@@ -86,6 +86,14 @@ std::optional<Part> find_part(std::string_view text, size_t open, std::string_vi
     return std::nullopt;
 }
 
+/// Where the array of the root begins, which the caller knows is there.
+size_t find_array(std::string_view text, const char *key) {
+    const std::optional<Part> part = find_part(text, text.find('{'), key);
+    if (!part)
+        refuse(key, "expected an array");
+    return part->value;
+}
+
 void erase_part(std::string &text, size_t open, std::string_view key) {
     const std::vector<Part> parts = parts_of(text, open);
     for (size_t i = 0; i < parts.size(); ++i)
@@ -222,8 +230,8 @@ std::string edit_file(Bytes file, const Kind &kind, uint32_t index, const char *
         throw Failure(KNURL_ERROR_ARGUMENT, std::string(kind.array) + ": expected an index below " +
                                                 std::to_string(count) + ", found " + std::to_string(index));
     std::string text(container.json);
-    const size_t array = find_part(text, text.find('{'), kind.array)->value;
-    edit_object(text, parts_of(text, array)[index].value, patch, root.item(kind.array, kind.name, index));
+    const std::vector<Part> objects = parts_of(text, find_array(text, kind.array));
+    edit_object(text, objects.at(index).value, patch, root.item(kind.array, kind.name, index));
     const Json edited = parse_json(text, budget);
     (void)read_tag(Fields(edited, "", no_index).item(kind.array, kind.name, index));
     return assemble(file, container, std::move(text));
@@ -238,7 +246,7 @@ void list_file(Bytes file, knurl_gltf_list_callback each, void *user) {
     for (const Kind &kind : kinds) {
         if (root.array(kind.array).empty())
             continue;
-        const std::vector<Part> objects = parts_of(text, find_part(text, text.find('{'), kind.array)->value);
+        const std::vector<Part> objects = parts_of(text, find_array(text, kind.array));
         for (uint32_t i = 0; i < objects.size(); ++i) {
             const std::string name(root.item(kind.array, kind.name, i).name());
             const std::optional<Part> extras = find_part(text, objects[i].value, "extras");

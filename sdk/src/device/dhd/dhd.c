@@ -2,12 +2,12 @@
  * force and reads a position. Read exchange() first. SPDX-License-Identifier: MIT */
 #include "device/dhd/dhd.h"
 
+#include "base/number.h"
 #include "device/dhd/rights.h"
 #include "device/drivers.h"
 #include "device/dynlib.h"
 #include "device/link.h"
 #include "device/listings.h"
-#include "base/number.h"
 #include "device/quaternion.h"
 #include "device/uri.h"
 

@@ -2,11 +2,11 @@
 #include "device/falcon/falcon_device.h"
 
 #include "base/format.h"
+#include "base/number.h"
 #include "base/regular_file.h"
 #include "device/drivers.h"
 #include "device/falcon/firmware.h"
 #include "device/falcon/kinematics.h"
-#include "base/number.h"
 
 #include <stdio.h>
 #include <string.h>

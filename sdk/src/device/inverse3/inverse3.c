@@ -3,11 +3,11 @@
 #include "device/inverse3/channel.h"
 
 #include "base/format.h"
+#include "base/number.h"
 #include "base/system.h"
 #include "device/drivers.h"
 #include "device/link.h"
 #include "device/listings.h"
-#include "base/number.h"
 #include "device/uri.h"
 
 #include <math.h>

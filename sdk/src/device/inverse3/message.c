@@ -1,8 +1,8 @@
 /* Reads and writes messages of the Haply Inverse Service. SPDX-License-Identifier: MIT */
 #include "device/inverse3/message.h"
 
-#include "base/vec3.h"
 #include "base/number.h"
+#include "base/vec3.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,8 +1,8 @@
 /* Reads the geometry file. SPDX-License-Identifier: MIT */
 #include "device/rawhid/geometry.h"
 
-#include "base/regular_file.h"
 #include "base/number.h"
+#include "base/regular_file.h"
 
 #include <errno.h>
 #include <math.h>
