@@ -184,6 +184,7 @@ release() {
     package_windows
     mv "build/knurl-godot-$version.zip" "build/knurl-godot-demo-$version.zip" build/com.knurl.haptics-"$version".tgz "$out/"
     [ ! -f "build/knurl-$version-windows-x86_64.zip" ] || mv "build/knurl-$version-windows-x86_64.zip" "$out/"
+    bindings/blender/package.sh "$out/knurl-blender-$version.zip"
     (cd "$out" && sha256sum -- * >SHA256SUMS)
     echo "run: in $out:"
     ls "$out"
