@@ -102,6 +102,14 @@ TEST(other_chunks_of_a_glb_stay) {
     assert_int_equal(Loaded(after).report.surfaces, 1);
 }
 
+TEST(bytes_after_a_glbs_declared_length_stay_after_it) {
+    const std::string file = awkward_file().glb() + "trailing";
+    const std::string after = tagged(file, whole_tag);
+    assert_true(after.substr(after.size() - 8) == "trailing");
+    assert_int_equal(Loaded(after).report.surfaces, 1);
+    assert_true(tagged(after, nullptr) == file);
+}
+
 TEST(keys_replace_keys_and_null_removes_one) {
     const std::string file = quad_with(R"({"mine":{"knurl":1},"knurl":{"version":1,"spatial_frequency":[700,0],
         "amplitude":1e-4, "stiffness" :  3.50e2,"friction":0.5},"yours":"}"})")

@@ -188,12 +188,19 @@ void check_patch(const char *patch) {
         refuse("tag", "expected a JSON object, found " + json.described());
 }
 
+size_t get_word(const std::string &bytes, size_t at) {
+    size_t value = 0;
+    for (size_t i = 4; i-- > 0;)
+        value = value << 8U | static_cast<unsigned char>(bytes[at + i]);
+    return value;
+}
+
 void put_word(std::string &bytes, size_t at, size_t value) {
     for (size_t i = 0; i < 4; ++i)
         bytes[at + i] = static_cast<char>(value >> 8U * i & 0xFFU);
 }
 
-/// The file with other JSON text: its other chunks stay as they are.
+/// The file with other JSON text: its other chunks stay as they are, and what follows its declared length, too.
 std::string assemble(Bytes file, const Container &container, std::string json) {
     const auto *bytes = reinterpret_cast<const char *>(file.data);
     if (container.json.data() == bytes)
@@ -202,14 +209,13 @@ std::string assemble(Bytes file, const Container &container, std::string json) {
     json.erase(json.find_last_of('}') + 1);
     json.append((4 - json.size() % 4) % 4, ' ');
     std::string whole(bytes, json_at);
-    const size_t rest = json_at + container.json.size();
-    whole += json;
-    whole.append(bytes + rest, file.size - rest);
-    if (whole.size() > UINT32_MAX)
+    const size_t grown = get_word(whole, 8) - container.json.size() + json.size();
+    if (grown > UINT32_MAX)
         refuse(".glb header", "the file would be longer than 4 GiB", KNURL_ERROR_FULL);
-    put_word(whole, 8, whole.size());
+    put_word(whole, 8, grown);
     put_word(whole, 12, json.size());
-    return whole;
+    const size_t rest = json_at + container.json.size();
+    return whole.append(json).append(bytes + rest, file.size - rest);
 }
 
 const Kind &kind_of(const char *array) {
