@@ -42,12 +42,12 @@ static inline int place_alone(knurl_contacts *c, const knurl_broad_index *index,
     }
     a->record = __atomic_load_n(&a->surface->record, __ATOMIC_SEQ_CST);
     const knurl_motion *motion = &a->record->motion;
+    if (KNURL_UNLIKELY(!candidate->has_previous || candidate->jumps != motion->jumps)) {
+        return 0; /* also if it stands: joint contact may have placed a replaced surface without testing it */
+    }
     if (KNURL_LIKELY(knurl_candidate_stands(candidate, motion, &c->clock))) {
         a->pose = &motion->end;
         return 1;
-    }
-    if (!candidate->has_previous || candidate->jumps != motion->jumps) {
-        return 0;
     }
     knurl_contacts_catch_up(c, motion);
     knurl_candidate_place_anew(candidate, motion, &c->clock, &a->pose, &before);
