@@ -3,11 +3,13 @@ usage: PYTHON_WITH_BPY test_extension.py KNURL ZIP     or: blender --background 
 SPDX-License-Identifier: MIT"""
 import json
 import os
+import shutil
 import struct
 import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 import zipfile
 
 import bpy  # before addon_utils, whose folder it adds
@@ -18,11 +20,11 @@ KNURL, ZIP = sys.argv[-2:]
 IS_EXTENSION = bpy.app.version >= (4, 2)
 NAME = "bl_ext.user_default.knurl" if IS_EXTENSION else "knurl"
 if not hasattr(numpy, "bool"):
-    numpy.bool = bool  # Debian 12's Blender 3.4 cannot import glTF beside its own numpy without
+    numpy.bool = bool  # Debian 12's Blender 3.4 needs it to import glTF with its own numpy
 
 
 def install():
-    """As a user does, but for the folder that older versions unpack it into."""
+    """Installs the zip as a user does; for versions before 4.2 it is unpacked here."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     addon_utils.enable("io_scene_gltf2")
     if IS_EXTENSION:
@@ -132,6 +134,60 @@ class Extension(unittest.TestCase):
         self.assertAlmostEqual(self.material.knurl_ridges, 1.0, places=6)
         self.export(True)
         self.assertEqual(inspect(self.path)[0][0]["material"]["spatial_frequency"], [1000.0, 0.0])
+
+    def test_a_nested_tag_of_another_importer_is_shown_and_edited_whole(self):
+        self.material["knurl"] = {"version": 1, "spatial_frequency": [1000.0, 0.0], "amplitude": 1e-4, "stiffness": 300.0}
+        self.assertAlmostEqual(self.material.knurl_ridges, 1.0, places=6)
+        self.assertAlmostEqual(self.material.knurl_depth, 0.2, places=6)
+        self.material.knurl_grip = 0.5
+        self.assertEqual(self.export()["materials"][0]["extras"]["knurl"], {
+            "version": 1, "spatial_frequency": [1000.0, 0.0], "amplitude": 1e-4, "stiffness": 300.0, "friction": 0.5})
+
+    def test_a_setting_changed_while_off_makes_a_whole_tag(self):
+        self.material.knurl_grip = 0.5
+        self.export()
+        surfaces, said = inspect(self.path)
+        self.assertEqual((said, surfaces[0]["material"]["friction"]), ("", 0.5))
+
+    def test_presets_need_a_material_of_this_file(self):
+        path = os.path.join(self.folder.name, "linked.blend")
+        bpy.data.libraries.write(path, {self.material})
+        with bpy.data.libraries.load(path, link=True) as (there, here):
+            here.materials = there.materials
+        for material in (here.materials[0], None):
+            self.object.data.materials[0] = material
+            with self.assertRaisesRegex(RuntimeError, "expected an active material"):
+                bpy.ops.knurl.preset(name="corduroy")
+        bpy.context.view_layer.objects.active = None
+        with self.assertRaisesRegex(RuntimeError, "expected an active material"):
+            bpy.ops.knurl.preset(name="corduroy")
+
+    def test_feel_runs_the_tool_on_an_export(self):
+        program = os.path.join(self.folder.name, "tool")
+        with open(program, "w", encoding="utf-8") as file:
+            file.write("#!/bin/sh\necho \"$@\"\n")
+        self.addCleanup(os.environ.pop, "KNURL_TOOL", None)
+        os.environ["KNURL_TOOL"] = program
+        with self.assertRaisesRegex(RuntimeError, "expected the program"):
+            bpy.ops.knurl.feel()  # it cannot be run yet
+        os.chmod(program, 0o755)
+        made = []
+        popen = subprocess.Popen
+        with unittest.mock.patch("subprocess.Popen", lambda *args, **named: made.append(popen(*args, **named)) or made[0]):
+            self.assertEqual(bpy.ops.knurl.feel(), {"FINISHED"})
+        self.assertEqual(made[0].wait(10), 0)
+        scene = made[0].args[2]
+        self.addCleanup(shutil.rmtree, os.path.dirname(scene))
+        self.assertEqual(json_of(scene)["asset"]["version"], "2.0")
+        with open(scene + ".log", encoding="utf-8") as log:
+            self.assertEqual(log.read(), f"run {scene} --view\n")
+
+    def test_it_can_be_disabled_and_enabled_again(self):
+        for _ in range(2):
+            addon_utils.disable(NAME)
+            self.assertFalse(hasattr(self.material, "knurl_on"))
+            addon_utils.enable(NAME)
+            self.assertFalse(self.material.knurl_on)
 
     def test_warnings_name_what_cannot_be_felt(self):
         warnings_of = sys.modules[NAME + ".panel"].warnings_of

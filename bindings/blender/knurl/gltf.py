@@ -1,4 +1,4 @@
-"""Tags in glTF files, by the hooks of Blender's own glTF add-on, whether Custom Properties are exported or not.
+"""Tags in glTF files, by the hooks of Blender's glTF add-on; independent of its option Custom Properties.
 SPDX-License-Identifier: MIT"""
 from . import tag
 
@@ -40,7 +40,7 @@ class glTF2ImportUserExtension:  # pylint: disable=invalid-name
     """Reads both forms into custom properties, which the panels show."""
 
     def __init__(self):
-        self.extensions = []  # the importer asks for it
+        self.extensions = []  # read by the importer
 
     def gather_import_material_after_hook(self, gltf_material, _vertex_color, blender_material, _gltf):
         _import(gltf_material, blender_material)

@@ -14,9 +14,9 @@ OWNERS = (bpy.types.Material, bpy.types.Object)
 
 
 def _number(key, name, description, default=0.0, **range_of):
-    """A property over one custom property."""
-    return FloatProperty(name=name, description=description, get=lambda self: float(self.get(tag.PREFIX + key, default)),
-                         set=lambda self, value: self.__setitem__(tag.PREFIX + key, value), **range_of)
+    """A property for one key of the tag."""
+    return FloatProperty(name=name, description=description, get=lambda self: float(tag.get(self, key, default)),
+                         set=lambda self, value: tag.put(self, key, value), **range_of)
 
 
 def _ridges(axis, name, description):
@@ -27,7 +27,7 @@ def _ridges(axis, name, description):
     def put(self, value):
         both = tag.frequencies(self)
         both[axis] = 1000.0 / value if value > 0.0 else 0.0
-        self[tag.PREFIX + "spatial_frequency"] = both
+        tag.put(self, "spatial_frequency", both)
 
     return FloatProperty(name=name, description=description, min=0.0, soft_max=10.0, precision=3, step=1, get=get, set=put)
 
@@ -36,28 +36,11 @@ def _choice(key, name, description, items):
     words = [item[0] for item in items]
 
     def get(self):
-        value = self.get(tag.PREFIX + key, words[0])
+        value = tag.get(self, key, words[0])
         return words.index(value) if value in words else 0
 
-    def put(self, index):
-        if index == 0:
-            self.pop(tag.PREFIX + key, None)
-        else:
-            self[tag.PREFIX + key] = words[index]
-
-    return EnumProperty(name=name, description=description, items=items, get=get, set=put)
-
-
-def _axis():
-    def put(self, value):
-        if any(value):
-            self[tag.PREFIX + "axis"] = list(value)
-        else:
-            self.pop(tag.PREFIX + "axis", None)
-
-    return FloatVectorProperty(name="Axis", size=3, subtype="XYZ", set=put,
-                               description="Direction across the ridges in the object's space; 0, 0, 0: by its UVs",
-                               get=lambda self: tuple(self.get(tag.PREFIX + "axis", (0.0, 0.0, 0.0))))
+    return EnumProperty(name=name, description=description, items=items, get=get,
+                        set=lambda self, index: tag.put(self, key, words[index] if index else None))
 
 
 PROPERTIES = {
@@ -69,27 +52,30 @@ PROPERTIES = {
     "knurl_ridges_across": _ridges(1, "Across (mm)", "From ridge to ridge along v, which makes a grid; 0: no ridges"),
     "knurl_depth": FloatProperty(
         name="Depth (mm)", description="From the bottom of a groove to the top of a ridge", min=0.0, soft_max=2.0,
-        precision=3, step=1, get=lambda self: 2000.0 * float(self.get(tag.PREFIX + "amplitude", 0.0)),
-        set=lambda self, value: self.__setitem__(tag.PREFIX + "amplitude", value / 2000.0)),
+        precision=3, step=1, get=lambda self: 2000.0 * float(tag.get(self, "amplitude", 0.0)),
+        set=lambda self, value: tag.put(self, "amplitude", value / 2000.0)),
     "knurl_hardness": _number("stiffness", "Stiffness (N/m)", "Of the wall; a Touch holds some 800 N/m", 400.0, min=0.001,
                               soft_min=50.0, soft_max=1000.0),
     "knurl_grip": _number("friction", "Friction", "Coulomb coefficient", min=0.0, soft_max=1.5),
     "knurl_loss": _number("damping", "Damping (N s/m)", "Along the normal", min=0.0, soft_max=5.0),
     "knurl_turn": _number("orientation", "Direction", "Turns the ridges about the normal", subtype="ANGLE"),
-    "knurl_across": _axis(),
-    "knurl_layout": _choice("coordinates", "Coordinates", "What ridges are laid out by", [
+    "knurl_across": FloatVectorProperty(
+        name="Axis", description="Direction across the ridges in the object's space; 0, 0, 0: by its UVs", size=3,
+        subtype="XYZ", get=lambda self: tuple(tag.get(self, "axis", (0.0, 0.0, 0.0))),
+        set=lambda self, value: tag.put(self, "axis", list(value) if any(value) else None)),
+    "knurl_layout": _choice("coordinates", "Coordinates", "How ridges are placed", [
         ("auto", "UVs", "By axis, tangents or UVs; by positions if there are none"),
         ("box", "Box", "By positions in object space")]),
     "knurl_play": _choice("method", "Method", "How ridges are played", [
-        ("default", "Default", "As the application has it"),
+        ("default", "Default", "The application's"),
         ("S1", "S1", "The paper's, by position"),
         ("S2", "S2", "The paper's, by velocity"),
         ("bandlimited", "bandlimited", "In step and without false tones"),
     ]),
     "knurl_flat": BoolProperty(
         name="Faceted", description="Felt as its triangles, though the mesh is shaded smooth",
-        get=lambda self: not self.get(tag.PREFIX + "smooth", True),
-        set=lambda self, on: self.__setitem__(tag.PREFIX + "smooth", False) if on else self.pop(tag.PREFIX + "smooth", None)),
+        get=lambda self: not tag.get(self, "smooth", True),
+        set=lambda self, on: tag.put(self, "smooth", False if on else None)),
 }
 
 
@@ -115,10 +101,13 @@ class KNURL_OT_preset(bpy.types.Operator):
     on_object: BoolProperty()
 
     def execute(self, context):
-        owner = context.object if self.on_object else context.object.active_material
+        owner = context.object  # in the Properties editor of a pinned material there may be no object
+        if not self.on_object:
+            owner = getattr(context, "material", None) or (owner and owner.active_material)
         chosen = [m for m in tag.materials() if m["name"] == self.name]
-        if owner is None or not chosen:
-            self.report({"ERROR"}, f"Knurl: no material '{self.name}'" if owner else "Knurl: no active material")
+        if owner is None or owner.library or not chosen:
+            self.report({"ERROR"}, f"Knurl: expected one of the everyday materials, found '{self.name}'" if not chosen else
+                        "Knurl: expected an active material or object that is not linked from another file")
             return {"CANCELLED"}
         tag.write(owner, chosen[0]["tag"])
         return {"FINISHED"}
@@ -130,14 +119,14 @@ class KNURL_OT_feel(bpy.types.Operator):
     bl_label = "Feel"
 
     def execute(self, _context):
-        tool = os.environ.get("KNURL_TOOL") or shutil.which("knurl")
+        tool = shutil.which(os.environ.get("KNURL_TOOL") or "knurl")
         if not tool:
             self.report({"ERROR"}, "Knurl: expected the program 'knurl' on the path, or its path in KNURL_TOOL")
             return {"CANCELLED"}
         path = os.path.join(tempfile.mkdtemp(prefix="knurl-"), "scene.glb")
         bpy.ops.export_scene.gltf(filepath=path)
         with open(path + ".log", "wb") as log:
-            subprocess.Popen([tool, "run", path, "--view"], stdout=log, stderr=log)  # it ends with its page
+            subprocess.Popen([tool, "run", path, "--view"], stdout=log, stderr=log)  # ends when its page is closed
         self.report({"INFO"}, f"Knurl: the page's address is in {path}.log")
         return {"FINISHED"}
 

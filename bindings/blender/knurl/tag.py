@@ -1,5 +1,5 @@
-"""A tag as custom properties (docs/tagging.md), which are its only place: Blender's undo, libraries and other exporters, FBX
-among them, know them as they are. SPDX-License-Identifier: MIT"""
+"""A tag as custom properties (docs/tagging.md). It is stored nowhere else, so it works with undo, linked libraries and other
+exporters, such as FBX. SPDX-License-Identifier: MIT"""
 import json
 import os
 
@@ -10,7 +10,7 @@ DEFAULT = {"spatial_frequency": [1000.0, 0.0], "amplitude": 0.0002, "stiffness":
 
 
 def _plain(value):
-    """A custom property's value as JSON has it."""
+    """A custom property's value in JSON's types."""
     if hasattr(value, "to_dict"):
         return value.to_dict()
     return list(value) if hasattr(value, "to_list") else value
@@ -39,9 +39,23 @@ def write(owner, tag):
             owner[PREFIX + key] = tag[key]
 
 
+def get(owner, key, default):
+    return (read(owner) or {}).get(key, default)
+
+
+def put(owner, key, value):
+    """Sets a key; None removes it. A nested tag is made flat first, and an object without a tag gets the default one."""
+    if not any(PREFIX + each in owner for each in KEYS):
+        write(owner, read(owner) or DEFAULT)
+    if value is None:
+        owner.pop(PREFIX + key, None)
+    else:
+        owner[PREFIX + key] = value
+
+
 def frequencies(owner):
     """Cycles per metre along x and y."""
-    value = _plain(owner.get(PREFIX + "spatial_frequency", 0.0))
+    value = get(owner, "spatial_frequency", 0.0)
     return list(value) if isinstance(value, list) else [float(value), 0.0]
 
 
