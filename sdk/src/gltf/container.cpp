@@ -16,6 +16,11 @@ uint32_t word(const unsigned char *at) {
     return uint32_t{at[0]} | uint32_t{at[1]} << 8U | uint32_t{at[2]} << 16U | uint32_t{at[3]} << 24U;
 }
 
+void put_word(std::string &bytes, size_t at, size_t value) {
+    for (size_t i = 0; i < 4; ++i)
+        bytes[at + i] = static_cast<char>(value >> 8U * i & 0xFFU);
+}
+
 struct Chunk {
     uint32_t type = 0;
     Bytes bytes;
@@ -77,6 +82,23 @@ Container split(Bytes bytes) {
         throw Failure(KNURL_ERROR_FORMAT, "expected a JSON object or a .glb, found " +
                                               std::string(bytes.size == 0 ? "nothing" : "neither"));
     return {text, std::nullopt};
+}
+
+std::string with_json(Bytes file, const Container &container, std::string json) {
+    const auto *bytes = reinterpret_cast<const char *>(file.data);
+    if (container.json.data() == bytes)
+        return json;
+    constexpr size_t json_at = header_size + chunk_header_size;
+    json.erase(json.find_last_of('}') + 1);
+    json.append((4 - json.size() % 4) % 4, ' ');
+    std::string whole(bytes, json_at);
+    const size_t length = word(file.data + 8) - container.json.size() + json.size();
+    if (length > UINT32_MAX)
+        refuse(".glb header", "the file would be longer than 4 GiB", KNURL_ERROR_FULL);
+    put_word(whole, 8, length);
+    put_word(whole, header_size, json.size());
+    const size_t rest = json_at + container.json.size();
+    return whole.append(json).append(bytes + rest, file.size - rest);
 }
 
 } // namespace knurl::gltf

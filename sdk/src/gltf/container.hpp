@@ -16,5 +16,8 @@ struct Container {
 /** Detects the format by content: a .glb starts with "glTF". Checks every length in a .glb. Throws Failure. */
 Container split(Bytes bytes);
 
+/** The file with other JSON text. Its other chunks and the bytes after its declared length stay. Throws Failure. */
+std::string with_json(Bytes file, const Container &container, std::string json);
+
 } // namespace knurl::gltf
 #endif

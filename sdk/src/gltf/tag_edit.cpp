@@ -86,23 +86,30 @@ std::optional<Part> find_part(std::string_view text, size_t open, std::string_vi
     return std::nullopt;
 }
 
-/// Where the array of the root begins, which the caller knows is there.
-size_t find_array(std::string_view text, const char *key) {
-    const std::optional<Part> part = find_part(text, text.find('{'), key);
-    if (!part)
-        refuse(key, "expected an array");
-    return part->value;
+/// The elements of an array of the root; the caller has checked that it is an array or absent.
+std::vector<Part> objects_of(std::string_view text, const char *array) {
+    const std::optional<Part> part = find_part(text, text.find('{'), array);
+    return part ? parts_of(text, part->value) : std::vector<Part>();
 }
 
-void erase_part(std::string &text, size_t open, std::string_view key) {
+bool is_extras(std::string_view key) {
+    return key == "extras";
+}
+
+bool is_of_tag(std::string_view key) {
+    return key == "knurl" || is_flat(key);
+}
+
+void erase_parts(std::string &text, size_t open, bool (*is_erased)(std::string_view key)) {
     const std::vector<Part> parts = parts_of(text, open);
+    std::string kept;
     for (size_t i = 0; i < parts.size(); ++i)
-        if (parts[i].key == key) {
-            const size_t from = i > 0 ? parts[i - 1].end : parts[i].begin;
-            const size_t to = i == 0 && parts.size() > 1 ? parts[1].begin : parts[i].end;
-            text.erase(from, to - from);
-            return;
+        if (!is_erased(parts[i].key)) {
+            const size_t from = kept.empty() ? parts[i].begin : parts[i - 1].end; // the comma before it, too
+            kept.append(text, from, parts[i].end - from);
         }
+    if (!parts.empty())
+        text.replace(parts.front().begin, parts.back().end - parts.front().begin, kept);
 }
 
 void append_part(std::string &text, size_t open, const std::string &member) {
@@ -110,8 +117,12 @@ void append_part(std::string &text, size_t open, const std::string &member) {
     text.insert(parts.empty() ? open + 1 : parts.back().end, (parts.empty() ? "" : ",") + member);
 }
 
-/// A tag's keys without prefix and version, and their values as text, in the file's order.
+/// A tag's keys without prefix, and their values as text, in the file's order.
 using TagText = std::vector<std::pair<std::string, std::string>>;
+
+TagText new_tag() {
+    return {{"version", "1"}};
+}
 
 void set_key(TagText &tag, const std::string &key, std::string_view value) {
     for (auto entry = tag.begin(); entry != tag.end(); ++entry)
@@ -122,7 +133,7 @@ void set_key(TagText &tag, const std::string &key, std::string_view value) {
                 entry->second = value;
             return;
         }
-    if (value != "null" && key != "version")
+    if (value != "null")
         tag.emplace_back(key, value);
 }
 
@@ -135,9 +146,9 @@ void set_keys(TagText &tag, std::string_view text, size_t open) {
 std::optional<TagText> read_tag_text(std::string_view text, size_t extras) {
     std::optional<TagText> tag;
     for (const Part &part : text[extras] == '{' ? parts_of(text, extras) : std::vector<Part>()) {
-        if (part.key != "knurl" && !is_flat(part.key))
+        if (!is_of_tag(part.key))
             continue;
-        tag = tag ? tag : TagText();
+        tag = tag ? tag : new_tag();
         if (is_flat(part.key))
             set_key(*tag, part.key.substr(flat_prefix.size()), text.substr(part.value, part.end - part.value));
         else if (text[part.value] == '{')
@@ -147,29 +158,22 @@ std::optional<TagText> read_tag_text(std::string_view text, size_t extras) {
 }
 
 std::string nested(const TagText &tag) {
-    std::string text = "{\"version\":1";
+    std::string text;
     for (const auto &[key, value] : tag)
-        text += "," + nlohmann::json(key).dump() + ":" + value;
-    return text + "}";
-}
-
-void erase_tag(std::string &text, size_t extras) {
-    for (const Part &part : parts_of(text, extras))
-        if (part.key == "knurl" || is_flat(part.key))
-            erase_part(text, extras, part.key);
+        text += (text.empty() ? "{" : ",") + nlohmann::json(key).dump() + ":" + value;
+    return text.empty() ? "{}" : text + "}";
 }
 
 /// patch: null removes the tag. owner: the object in messages.
 void edit_object(std::string &text, size_t object, const char *patch, const Fields &owner) {
     if (const Json *extras = owner.find("extras"); extras != nullptr && extras->object() == nullptr)
         owner.refuse_value("extras", "an object, which can hold a tag", *extras);
-    std::optional<Part> extras = find_part(text, object, "extras");
-    TagText tag;
-    if (extras) {
-        tag = read_tag_text(text, extras->value).value_or(TagText());
-        erase_tag(text, extras->value);
-    }
+    const std::optional<Part> extras = find_part(text, object, "extras");
+    const std::optional<TagText> old = extras && patch != nullptr ? read_tag_text(text, extras->value) : std::nullopt;
+    if (extras)
+        erase_parts(text, extras->value, is_of_tag);
     if (patch != nullptr) {
+        TagText tag = old.value_or(new_tag());
         set_keys(tag, patch, skip_blank(patch, 0));
         const std::string member = "\"knurl\":" + nested(tag);
         if (extras)
@@ -177,7 +181,7 @@ void edit_object(std::string &text, size_t object, const char *patch, const Fiel
         else
             append_part(text, object, "\"extras\":{" + member + "}");
     } else if (extras && parts_of(text, extras->value).empty()) {
-        erase_part(text, object, "extras");
+        erase_parts(text, object, is_extras);
     }
 }
 
@@ -186,36 +190,6 @@ void check_patch(const char *patch) {
     const Json json = parse_json(patch, budget);
     if (json.object() == nullptr)
         refuse("tag", "expected a JSON object, found " + json.described());
-}
-
-size_t get_word(const std::string &bytes, size_t at) {
-    size_t value = 0;
-    for (size_t i = 4; i-- > 0;)
-        value = value << 8U | static_cast<unsigned char>(bytes[at + i]);
-    return value;
-}
-
-void put_word(std::string &bytes, size_t at, size_t value) {
-    for (size_t i = 0; i < 4; ++i)
-        bytes[at + i] = static_cast<char>(value >> 8U * i & 0xFFU);
-}
-
-/// The file with other JSON text: its other chunks stay as they are, and what follows its declared length, too.
-std::string assemble(Bytes file, const Container &container, std::string json) {
-    const auto *bytes = reinterpret_cast<const char *>(file.data);
-    if (container.json.data() == bytes)
-        return json;
-    constexpr size_t json_at = 20; // after the file's header and the chunk's
-    json.erase(json.find_last_of('}') + 1);
-    json.append((4 - json.size() % 4) % 4, ' ');
-    std::string whole(bytes, json_at);
-    const size_t grown = get_word(whole, 8) - container.json.size() + json.size();
-    if (grown > UINT32_MAX)
-        refuse(".glb header", "the file would be longer than 4 GiB", KNURL_ERROR_FULL);
-    put_word(whole, 8, grown);
-    put_word(whole, 12, json.size());
-    const size_t rest = json_at + container.json.size();
-    return whole.append(json).append(bytes + rest, file.size - rest);
 }
 
 const Kind &kind_of(const char *array) {
@@ -236,11 +210,10 @@ std::string edit_file(Bytes file, const Kind &kind, uint32_t index, const char *
         throw Failure(KNURL_ERROR_ARGUMENT, std::string(kind.array) + ": expected an index below " +
                                                 std::to_string(count) + ", found " + std::to_string(index));
     std::string text(container.json);
-    const std::vector<Part> objects = parts_of(text, find_array(text, kind.array));
-    edit_object(text, objects.at(index).value, patch, root.item(kind.array, kind.name, index));
+    edit_object(text, objects_of(text, kind.array).at(index).value, patch, root.item(kind.array, kind.name, index));
     const Json edited = parse_json(text, budget);
     (void)read_tag(Fields(edited, "", no_index).item(kind.array, kind.name, index));
-    return assemble(file, container, std::move(text));
+    return with_json(file, container, std::move(text));
 }
 
 void list_file(Bytes file, knurl_gltf_list_callback each, void *user) {
@@ -250,10 +223,9 @@ void list_file(Bytes file, knurl_gltf_list_callback each, void *user) {
     const Json json = parse_json(text, budget);
     const Fields root(json, "", no_index);
     for (const Kind &kind : kinds) {
-        if (root.array(kind.array).empty())
-            continue;
-        const std::vector<Part> objects = parts_of(text, find_array(text, kind.array));
-        for (uint32_t i = 0; i < objects.size(); ++i) {
+        const size_t count = root.array(kind.array).size();
+        const std::vector<Part> objects = objects_of(text, kind.array);
+        for (uint32_t i = 0; i < count; ++i) {
             const std::string name(root.item(kind.array, kind.name, i).name());
             const std::optional<Part> extras = find_part(text, objects[i].value, "extras");
             const std::optional<TagText> tag = extras ? read_tag_text(text, extras->value) : std::nullopt;
