@@ -33,19 +33,27 @@ static int measure(const char *text, unsigned long *code) {
     return is_utf8 ? bytes : 1;
 }
 
+/* Prints a character of a string, escaped if a terminal must not get it. Returns its number of bytes. */
+static int print_character(FILE *stream, const char *c) {
+    unsigned long code;
+    const int bytes = measure(c, &code);
+    if (code > 0xffff) {
+        fprintf(stream, "\\u%04lx\\u%04lx", 0xd7c0 + (code >> 10), 0xdc00 + (code & 0x3ff));
+    } else if (code) {
+        fprintf(stream, "\\u%04lx", code);
+    } else {
+        fprintf(stream, "%.*s", bytes, c);
+    }
+    return bytes;
+}
+
 static void print_text(FILE *stream, const char *text) {
     fputc('"', stream);
     for (const char *c = text; *c;) {
-        unsigned long code;
-        const int bytes = measure(c, &code);
-        if (code > 0xffff) {
-            fprintf(stream, "\\u%04lx\\u%04lx", 0xd7c0 + (code >> 10), 0xdc00 + (code & 0x3ff));
-        } else if (code) {
-            fprintf(stream, "\\u%04lx", code);
-        } else {
-            fprintf(stream, "%s%.*s", *c == '"' || *c == '\\' ? "\\" : "", bytes, c);
+        if (*c == '"' || *c == '\\') {
+            fputc('\\', stream);
         }
-        c += bytes;
+        c += print_character(stream, c);
     }
     fputc('"', stream);
 }
@@ -129,5 +137,12 @@ void json_string(json_writer *json, const char *key, const char *value) {
 
 void json_raw(json_writer *json, const char *key, const char *value) {
     begin_value(json, key);
-    fputs(value, json->stream);
+    for (const char *c = value; *c;) {
+        if ((unsigned char)*c <= ' ') { /* between values: strings have no control characters */
+            fputc(' ', json->stream);
+            c++;
+        } else {
+            c += print_character(json->stream, c);
+        }
+    }
 }

@@ -21,7 +21,7 @@ void json_close(json_writer *json, char bracket);                 /* '}' or ']';
 void json_number(json_writer *json, const char *key, double value);
 void json_flag(json_writer *json, const char *key, int value);
 void json_string(json_writer *json, const char *key, const char *value);
-void json_raw(json_writer *json, const char *key, const char *value); /* JSON already */
+void json_raw(json_writer *json, const char *key, const char *value); /* JSON text; printed on one line */
 
 /* An array on one line: every `stride`-th of the numbers from the first on. */
 void json_numbers(json_writer *json, const char *key, const double *values, size_t count, size_t stride);

@@ -120,9 +120,8 @@ static void list_object(void *user, const char *array, uint32_t index, const cha
 }
 
 static int list(const bytes *file, const char *path, int pretty) {
-    static const char nothing[] = "";
     json_writer json;
-    search s = {"", nothing, 0, 0, 0};
+    search s = {"", NULL, 0, 0, 0};
     if (knurl_gltf_list_tags(file->data, file->size, path, match, &s)) { /* before anything is printed */
         return tool_library_error(TOOL_FAILURE, NULL);
     }

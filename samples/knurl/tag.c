@@ -69,7 +69,8 @@ static int read_ridges(keys *k) {
     double frequency[2] = {0.0, 0.0};
     for (int axis = 0; axis < 2 && strcmp(k->ridges, "none") != 0; axis++) {
         double apart;
-        if (!read_quantity(text, lengths, &apart, &text) || !(apart > 0.0) || (*text && (*text != ',' || axis == 1))) {
+        if (!read_quantity(text, lengths, &apart, &text) || !(apart > 0.0) || isinf(1.0 / apart) ||
+            (*text && (*text != ',' || axis == 1))) {
             return tool_error(TOOL_USAGE,
                               "tag: --ridges: expected the distance from ridge to ridge with its unit, such as 1mm, "
                               "two of them for a grid, such as 1mm,2mm, or none, found '%s'",
@@ -120,7 +121,8 @@ static int read_axis(keys *k) {
 
 /* A word of a given set. The loader checks the words of other keys, and names the expected ones. */
 static int read_word(keys *k, const char *option, const char *key, const char *text) {
-    if (!text[0] || strlen(text) > 32 || strpbrk(text, "\"\\")) {
+    static const char allowed[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
+    if (!text[0] || strlen(text) > 32 || text[strspn(text, allowed)]) {
         return tool_error(TOOL_USAGE, "tag: %s: expected a word, found '%s'", option, text);
     }
     put_key(k, key);

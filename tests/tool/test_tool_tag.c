@@ -109,6 +109,8 @@ TEST(a_refused_edit_writes_nothing) {
         {"%G|--amplitude|0.2|--in-place", 2, "--amplitude: expected a length with its unit|found '0.2'"},
         {"%G|--orientation|45|--in-place", 2, "--orientation: expected an angle|'45'"},
         {"%G|--axis|1,0|--in-place", 2, "--axis: expected X,Y,Z"},
+        {"%G|--ridges|1e-320m|--in-place", 2, "--ridges: expected|found '1e-320m'"},
+        {"%G|--method|S2\n|--in-place", 2, "--method: expected a word"},
         {"%G|--smooth|perhaps|--in-place", 2, "--smooth: expected yes or no"},
         {"%G|--stiffness|-1|--in-place", 2, "--stiffness: expected a number"},
         {"%G|--preset|zip|--amplitude|-1mm|--out|%T/out.gltf", 1, "material 'ridges' (0): knurl.amplitude: expected"},
@@ -141,6 +143,14 @@ TEST(two_objects_of_one_name_are_told_apart_by_index) {
     check_done(&q);
     assert_non_null(strstr(q.err, "no node shows the tagged object"));
     check_tagged(file, "\"index\": 1, \"name\": \"a\", \"tag\": {");
+}
+
+TEST(a_listed_tag_is_on_one_line_and_harmless_to_a_terminal) {
+    const char *file = tool_path("hostile.gltf");
+    write_text(
+        file,
+        "{\"materials\":[{\"extras\":{\"knurl\":{\"axis\":[1,\n0,\t0],\"method\":\"\xc2\x9b\xe2\x80\xae\\\"S2\"}}}]}");
+    check_tagged(file, "\"axis\":[1, 0, 0],\"method\":\"\\u009b\\u202e\\\"S2\"}}]\n");
 }
 
 SUITE_FIXTURES(make_folder, remove_folder)
