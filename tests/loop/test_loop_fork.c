@@ -35,7 +35,7 @@ static knurl_device *blocking_device(void) {
     return device;
 }
 
-static int stop(knurl_loop *loop, knurl_device *device) {
+static int stop_loop(knurl_loop *loop, knurl_device *device) {
     (void)device;
     knurl_loop_stop(loop);
     return 0;
@@ -74,7 +74,7 @@ TEST(a_forked_child_waits_for_no_thread_and_the_loop_of_its_parent_goes_on) {
     desc.force_callback = no_force;
     assert_int_equal(knurl_loop_create(&desc, &loop), KNURL_OK);
     assert_int_equal(knurl_loop_start(loop), KNURL_OK);
-    assert_int_equal(in_a_child(stop, loop, device), 0);
+    assert_int_equal(in_a_child(stop_loop, loop, device), 0);
     assert_int_equal(in_a_child(wait_long, loop, device), 0);
     assert_int_equal(in_a_child(free_all, loop, device), 0);
     const knurl_loop_stats before = loop_stats(loop);

@@ -125,7 +125,9 @@ void failing_need(knurl_result result) {
     }
 }
 
-static int open_files(void) {
+int failing_files_of_library;
+
+int failing_open_files(void) {
     int count = 0;
     for (int i = 0; i < 256; i++) {
         count += fcntl(i, F_GETFD) >= 0;
@@ -184,17 +186,17 @@ static long run_and_weigh(const failing_call *c, long at, int all) {
     int files = 0;
     for (int tries = 0; tries < 3; tries++) {
         const long before = __atomic_load_n(&blocks, __ATOMIC_SEQ_CST);
-        files = open_files();
+        files = failing_open_files();
         made = run_once(c, at, all);
         grown = __atomic_load_n(&blocks, __ATOMIC_SEQ_CST) - before;
-        files = open_files() - files;
+        files = failing_open_files() - files;
         if (grown <= 0 && files <= 0) {
             return made;
         }
     }
     char detail[48];
     (void)snprintf(detail, sizeof detail, "%ld blocks, %d files", grown, files);
-    if (c->may_leak) {
+    if (c->may_leak || (grown <= 0 && files <= 2 * failing_files_of_library)) { /* a failed call is made twice */
         report->theirs++;
     } else {
         tell(&report->leaks, "leaks", detail);

@@ -25,6 +25,13 @@ typedef struct failing_call {
                    */
 } failing_call;
 
+/** Files that a library is known to leave open after each call, with memory or without; 0 unless set before
+ * failing_run(). They are counted as the library's. */
+extern int failing_files_of_library;
+
+/** The number of open files of this process. */
+int failing_open_files(void);
+
 /** Makes all the calls and fails the test if one does not hold; prints a line for each. */
 void failing_run(const failing_call *calls, size_t count);
 
