@@ -1,8 +1,7 @@
 """Builds the libraries into the package, and the declarations of their headers for cffi. Needs CMake, a C and a C++
 compiler and the dependencies of knurl_gltf (tinygltf, nlohmann-json, GLM). Environment: CMAKE_ARGS: more options for
 CMake; KNURL_BUILD_FOLDER: the folder to build in (default: build/libraries). A source archive holds the library's
-sources
-beside this file, in sdk-source. SPDX-License-Identifier: MIT"""
+sources beside this file, in sdk-source. SPDX-License-Identifier: MIT"""
 import os
 import re
 import shlex
@@ -32,8 +31,7 @@ def version():
 
 def interface():
     """The headers as cffi reads them: preprocessed, without declarations of other headers and without attributes; of
-    macros
-    only whole numbers."""
+    macros only whole numbers."""
     compiler = os.environ.get("CC", "cc")
     text = subprocess.run([compiler, "-E", "-dD", "-I", HEADERS, "-DKNURL_NONBLOCKING=", "-include", "knurl/knurl.h", "-include",
                            os.path.join(HERE, "native/record.h"), "-x", "c", os.devnull], check=True, capture_output=True, text=True).stdout

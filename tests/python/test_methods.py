@@ -1,5 +1,6 @@
 """Own methods. SPDX-License-Identifier: MIT"""
 import sys
+import time
 import unittest
 
 import numpy as np
@@ -92,6 +93,22 @@ class OwnMethods(unittest.TestCase):
         knurl.add_method("looped", fails)
         with self.assertRaisesRegex(RuntimeError, "in a loop"):
             loop.step(2000)
+
+    def test_an_exception_of_a_replaced_function_is_forgotten(self):
+        def fails(tick, memory):
+            raise RuntimeError("of the first cell")
+
+        knurl.add_method("cell", fails)
+        scene, device = scene_of("cell"), knurl.Device("fake")
+        device.lay_stroke(scene, scene.surfaces[0])
+        raised = knurl.methods._own["cell"]
+        loop = knurl.Loop(scene, device)
+        loop.start()
+        while raised.error is None:
+            time.sleep(0.001)
+        loop.close()
+        knurl.add_method("cell", lambda tick, memory: 0.5)
+        np.testing.assert_allclose(scene.tick(positions())["height"][1:], 0.5 * AMPLITUDE)
 
     def test_what_is_wrong_is_refused(self):
         for name in ("S2", "two words", ""):

@@ -120,8 +120,7 @@ _open_lock = threading.RLock() # iterating over a set fails if another thread ad
 
 class Owner:
     """An object of the library's. It is released by close(), at the end of a `with`, with its last reference, or when
-    Python
-    ends. While another thread is within a call on it, close() takes effect at the end of that call."""
+    Python ends. While another thread is within a call on it, close() takes effect at the end of that call."""
 
     _order = 0 # of closing when Python ends: loops first, because their threads may call Python
     _handle: Any = None

@@ -5,7 +5,7 @@ from ._library import check, ffi, lib
 
 
 class _Own:
-    """A function, and the first exception that it raised since the last one was passed on."""
+    """A function, and the first exception that it raised and that no call has raised yet."""
 
     def __init__(self, function: Callable[[Any, Any], float], crest: float) -> None:
         self.function, self.crest = function, crest
@@ -31,7 +31,7 @@ def add_method(name: str, function: Callable[[Any, Any], float], crest: float = 
     """Adds a method of your own: Material and Grating then take its name. function(tick, memory) returns the height of a tick
     in units of A; it is clamped to `crest`, and 0 if it is NaN or infinite. tick: `cycles` (the phase) and `velocity` (m/s)
     along x and y, `spatial_frequency`, `temporal_frequency` (f_t, Hz) and `period` (s); not valid after the call. memory: four
-    numbers that it finds again at the next tick, zeros when a contact begins. An exception is raised by the call that ticks;
+    numbers that are kept until the next tick, zeros when a contact begins. An exception is raised by the call that ticks;
     the heights from there on are 0. See knurl_method_add() in knurl/grating.h.
 
     A method stays until Python ends, and there is room for 16; to add one by the same name and with the same crest again
@@ -39,7 +39,7 @@ def add_method(name: str, function: Callable[[Any, Any], float], crest: float = 
     if name in _own:
         if crest != _own[name].crest:
             raise ValueError(f"crest: expected {_own[name].crest:g}, because there is a method {name!r}, found {crest:g}")
-        _own[name].function = function
+        _own[name].function, _own[name].error = function, None
         return
     own = _Own(function, crest)
     user = ffi.new_handle(own)
@@ -48,7 +48,7 @@ def add_method(name: str, function: Callable[[Any, Any], float], crest: float = 
 
 
 def raise_error() -> None:
-    """Passes an own method's exception on."""
+    """Raises the exception of an own method, once."""
     for own in _own.values():
         if own.error is not None:
             error, own.error = own.error, None

@@ -94,8 +94,7 @@ def _wavering(values: np.ndarray, window: int) -> float:
 def felt_weight(hz: ArrayLike) -> np.ndarray:
     """The sensitivity to a force at a frequency: the motion that it causes in a device of 45 g and 0.5 N s/m, held by a
     hand of 5 N s/m and 700 N/m, over the detection threshold of a fingertip (flat to 40 Hz, -12 dB an octave to 250 Hz
-    and +12 above:
-    Verrillo 1963); zero up to 8 Hz. A model, not a measurement: only ratios have a meaning."""
+    and +12 above: Verrillo 1963); zero up to 8 Hz. A model, not a measurement: only ratios have a meaning."""
     f = np.asarray(hz, dtype=float)
     w, over = 2.0 * np.pi * f, np.maximum(f, 1e-9) / 250.0
     threshold = np.where(f < 40.0, (250.0 / 40.0) ** 2, np.maximum(over**-2, over**2))
@@ -111,11 +110,10 @@ def steady(values: ArrayLike, rate: float, frequency: float) -> Dict[str, float]
     `tradeoff` (samples/study/README.md), in the unit of `values` unless noted. Needs at least 50 ms and one cycle.
 
     false_tones, felt_false_tones: the share (0 to 1) of the power, below rate / 2 or as felt, that is farther than 5 %
-    of
-    the frequency (at least 4 Hz) from each of its odd multiples. level: the line at the frequency; a square wave of 1
-    has
-    4/pi. push: mean over blocks of 50 ms, to whole cycles, of |mean|. net: |mean|, through Hann's window. wavering,
-    wavering_50: standard deviation over mean of the rms in windows of 12 and 50 ms. crest: the largest |value|."""
+    of the frequency (at least 4 Hz) from each of its odd multiples. level: the line at the frequency; a square wave of
+    1 has 4/pi. push: mean over blocks of 50 ms, to whole cycles, of |mean|. net: |mean|, through Hann's window.
+    wavering, wavering_50: standard deviation over mean of the rms in windows of 12 and 50 ms. crest: the largest
+    |value|."""
     signal = _values_of(values)
     push = _push(signal, rate, frequency)
     if isnan(push):
@@ -140,8 +138,7 @@ def step(values: ArrayLike, cycles: ArrayLike) -> float:
     position on the grating from the half cycle that is played, counted by sign changes of `values`; 0 within half a
     cycle. cycles: the position of each tick (`cycles` along the stroked axis), a whole number at the start of each
     rise. At each turn of the hand, the first half cycle is matched to the nearest one of its sign. For S1 and
-    bandlimited; S2's events, which
-    may have rests between, are counted by the study."""
+    bandlimited; S2's events, which may have rests between, are counted by the study."""
     signs, phase = np.sign(_values_of(values)), _values_of(cycles, "cycles")
     if len(signs) != len(phase):
         raise ValueError(f"cycles: expected a number for each of {len(signs)} values, found {len(phase)}")

@@ -42,8 +42,8 @@ def _method(name: Optional[str]) -> int:
 
 @dataclass
 class Material:
-    """What a surface feels like; knurl_material_desc in knurl/scene.h. method: "S1", "S2", "bandlimited", or None. Or a name
-    from add_method()."""
+    """What a surface feels like; knurl_material_desc in knurl/scene.h. method: "S1", "S2", "bandlimited", a name
+    from add_method(), or None."""
 
     stiffness: float = 400.0
     spatial_frequency: Tuple[float, float] = (0.0, 0.0)
@@ -283,9 +283,9 @@ class Scene(Owner):
     def tick(self, positions: ArrayLike, velocities: Optional[ArrayLike] = None, hip: int = 0,
              fields: Optional[Sequence[str]] = None) -> Ticks:
         """A tick a row of positions (n, 3), device axes, m; velocities (n, 3), m/s, if they are known. In rows that a
-        masked
-        array masks the HIP is absent: no force, and contacts end. Returns n rows of knurl_tick_output, with its names:
-        "force" (n, 3), "depth" (n), "surface" (n) ...; fields: only these, which saves memory (all are 288 bytes)."""
+        masked array masks the HIP is absent: no force, and contacts end. Returns n rows of knurl_tick_output, with its
+        names: "force" (n, 3), "depth" (n), "surface" (n) ...; fields: only these, which saves memory (all are 288
+        bytes)."""
         rows = _rows(positions, 3, "f8", "positions")
         given = None if velocities is None else np.broadcast_to(_rows(velocities, 3, "f8", "velocities"), rows.shape)
         absent = np.ma.getmaskarray(positions).any(axis=1) if isinstance(positions, np.ma.MaskedArray) else None
@@ -332,8 +332,7 @@ class Scene(Owner):
 
     def contacts(self, hip: int = 0) -> np.ndarray:
         """All contacts of the HIP's last tick, rows of knurl_hip_contact: "surface", "proxy", "normal", "depth". While
-        a loop
-        ticks the HIP, only within its tick_callback."""
+        a loop ticks the HIP, only within its tick_callback."""
         found = np.zeros(lib.KNURL_CONTACTS_MAX, _CONTACTS)
         pointer = ffi.from_buffer("knurl_hip_contact[]", found)
         own, inside = self._hip(hip), in_callback()

@@ -53,7 +53,7 @@ def _list(data: bytes, name: str) -> List[Tagged]:
         value = json.loads(ffi.string(text)) if text else None
         found.append(Tagged(ffi.string(array).decode(), index, ffi.string(label).decode(), value))
 
-    check(lib.knurl_gltf_list_tags(ffi.from_buffer(data), len(data), name.encode(), each, ffi.NULL))
+    check(lib.knurl_gltf_list_tags(ffi.from_buffer(data), len(data), os.fsencode(name), each, ffi.NULL))
     return found
 
 
@@ -79,7 +79,7 @@ def _write(path: Path, out: Path, choices: Tuple[Union[str, int, None], ...], pa
     def write(_user: Any, content: Any, size: int) -> None:
         made.append(bytes(ffi.buffer(content, size)))
 
-    check(lib.knurl_gltf_set_tag(ffi.from_buffer(data), len(data), name.encode(), target.array.encode(), target.index,
+    check(lib.knurl_gltf_set_tag(ffi.from_buffer(data), len(data), os.fsencode(name), target.array.encode(), target.index,
                                  patch, write, ffi.NULL))
     if not made:
         raise KnurlError(lib.KNURL_ERROR_MEMORY, f"{name}: out of memory")

@@ -73,10 +73,8 @@ class Ticks(np.ndarray):
 
     def to_frame(self, fields: Optional[Sequence[str]] = None, units: Optional[Mapping[str, str]] = None) -> Any:
         """A pandas.DataFrame with one column per number: "depth", "force_x", "force_y", "force_z". fields: some of its
-        fields (None:
-        all). units: other units than SI, such as {"depth": "mm", "force": "mN"}; `frame.attrs["units"]` has all. The
-        index is
-        the time in s if there is the field "tick"."""
+        fields (None: all). units: other units than SI, such as {"depth": "mm", "force": "mN"}; `frame.attrs["units"]`
+        has all. The index is the time in s if there is the field "tick"."""
         import pandas
 
         columns: Dict[str, np.ndarray] = {}
@@ -121,8 +119,7 @@ class Ticks(np.ndarray):
 
     def plot(self, axes: Optional[Sequence[Any]] = None) -> List[Any]:
         """Draws temporal frequency, height and force over time with matplotlib, and returns the three axes. axes: three
-        to
-        draw into (None: a new figure). Needs the fields temporal_frequency, height, force and tick."""
+        to draw into (None: a new figure). Needs the fields temporal_frequency, height, force and tick."""
         t = self._field("tick") / self._hz()
         if axes is None:
             from matplotlib import pyplot
@@ -171,8 +168,7 @@ class Verdict:
     """Measures of a stroke. crossed, played: half cycles, of all ticks. The others are of the longest stretch, ticks
     `begin` to `end`, over which ridges pass at a steady `hz` (within 5 % for 0.25 s at least), NaN if there is none:
     false_tones and felt_false_tones (shares of the power), level (of the line that keeps step with the hand; a square
-    wave
-    has 4/pi), push (the height that stays over 50 ms) and crest, in units of `amplitude`: see `metrics.steady`."""
+    wave has 4/pi), push (the height that stays over 50 ms) and crest, in units of `amplitude`: see `metrics.steady`."""
 
     crossed: float
     played: int
