@@ -65,10 +65,6 @@ static knurl_result open_serial(void) {
     return open_uri("serial:/dev/null");
 }
 
-static knurl_result open_inverse3(void) {
-    return open_uri("inverse3:?port=1"); /* a port without a listener */
-}
-
 static knurl_result open_own(uint32_t blocking) {
     knurl_device_functions functions = idle_functions();
     functions.blocking = blocking;
@@ -99,7 +95,6 @@ TEST(a_device_is_open_or_is_not_wherever_memory_runs_out) {
         {"... of a Falcon that is not there", NULL, open_falcon, NULL, no_device, 1, 1},
         {"... of a raw HID device that is not there", NULL, open_rawhid, NULL, no_device, 1, 0},
         {"... of a serial port that is none", NULL, open_serial, NULL, no_device, 1, 0},
-        {"... of an Inverse3 that is not there", NULL, open_inverse3, NULL, no_device, 1, 0},
         {"knurl_device_open_functions()", NULL, open_functions, close_device, no_device, 0, 0},
         {"... that block", NULL, open_blocking_functions, close_device, no_device, 0, 0},
         {"knurl_device_list()", NULL, list, NULL, NULL, 0, 1},

@@ -16,6 +16,14 @@ static void close_it(void) {
     device = NULL;
 }
 
+static knurl_result open_nothing(void) {
+    return knurl_device_open("inverse3:?port=1", &device); /* a port without a listener */
+}
+
+static void state_of_device(char *text, size_t size) {
+    (void)snprintf(text, size, "%s", device ? "open" : "none");
+}
+
 /* libwebsockets 4.3.5 (Debian 13) leaves the eventfd of a destroyed context open: measured without Knurl. */
 static int files_of_a_context(void) {
     struct lws_context_creation_info info;
@@ -29,7 +37,10 @@ static int files_of_a_context(void) {
 }
 
 TEST(an_inverse3_is_open_or_is_not_wherever_memory_runs_out) {
-    const failing_call calls[] = {{"knurl_device_open(inverse3)", NULL, open_it, close_it, NULL, 0, 0}};
+    const failing_call calls[] = {
+        {"knurl_device_open(inverse3)", NULL, open_it, close_it, NULL, 0, 0},
+        {"... of one that is not there", NULL, open_nothing, NULL, state_of_device, 1, 0},
+    };
     failing_files_of_library = files_of_a_context();
     if (failing_files_of_library > 0) {
         print_message("libwebsockets %s leaves %d files open after each context\n", lws_get_library_version(),
