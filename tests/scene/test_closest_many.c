@@ -165,6 +165,16 @@ TEST(a_batch_with_one_bad_position_changes_no_point) {
     assert_int_equal(knurl_scene_find_closest_batch(scene, &positions[0][0], 0, 1.0, found), KNURL_OK);
 }
 
+TEST(a_batch_with_one_bad_size_changes_no_point) {
+    const double positions[2][3] = {{0.0, 0.0, 0.1}, {0.0, 0.0, 0.2}};
+    surface_parts parts = surface_plane();
+    SCOPED_SCENE *scene = scene_of(&parts);
+    knurl_surface_point found[2];
+    knurl_surface_point_init(&found[0], sizeof found[0]);
+    memset(&found[1], 0, sizeof found[1]);
+    CHECK_REFUSED(knurl_scene_find_closest_batch(scene, &positions[0][0], 2, 1.0, found), KNURL_ERROR_ARGUMENT, found);
+}
+
 /* Two tiles share an edge: whichever the search begins at, the point on it is the earlier tile's. */
 TEST(of_surfaces_equally_near_it_is_the_one_at_the_lower_place) {
     surface_parts parts = surface_plane();

@@ -72,7 +72,8 @@ static void begin_at(search *s, knurl_surface_id id, uint32_t triangle) {
         knurl_pose_to_own(&pose, s->position, own);
         knurl_closest_on_triangle(mesh, triangle, own, &closest);
         (void)knurl_mesh_walk(mesh, own, 1, NULL, &closest);
-        const double room = sqrt(closest.distance2) * (1.0 + 1e-9) + 1e-12 * (1.0 + vec3_length(s->position));
+        const double room =
+            sqrt(closest.distance2) * (1.0 + 1e-9) + 1e-12 * (1.0 + vec3_length(s->position) + vec3_length(own));
         s->found.distance = fmin(s->found.distance, room);
     }
 }
@@ -173,10 +174,14 @@ knurl_result knurl_scene_find_closest_batch(const knurl_scene *scene, const doub
         return KNURL_ERROR_ARGUMENT;
     }
     knurl_result result = KNURL_OK;
-    for (uint64_t i = 0; i < count && !result; i++) {
-        result = check_query(positions + 3 * i, radius);
-    }
     char *at = (char *)points;
+    for (uint64_t i = 0; i < count && !result; i++) {
+        knurl_surface_point given;
+        result = check_query(positions + 3 * i, radius);
+        result = result ? result : knurl_desc_read("knurl_surface_point", at, &given, sizeof given);
+        at += ((const knurl_surface_point *)(const void *)at)->struct_size;
+    }
+    at = (char *)points;
     for (uint64_t i = 0; i < count && !result; i++) {
         knurl_surface_point *last = (knurl_surface_point *)(void *)at;
         at += i > 0 ? last->struct_size : 0;
