@@ -74,7 +74,7 @@ typedef struct knurl_surface_info {
     uint32_t edges;            /**< between two triangles of a mesh; 0 for a plane */
     uint32_t hard_edges;       /**< of these, felt as edges: the felt surface's normal turns by over 0.25 degrees */
     double facet_angle[2];     /**< rad: angle between the triangles at an edge: mean by the edges' lengths, largest */
-    double felt_angle[2];      /**< rad: the same of the surface as it is felt; 0 where it is smooth */
+    double felt_angle[2];      /**< rad: the same of the surface as it is felt; 0 if it is smooth */
 } knurl_surface_info;
 
 /** Zeroes it and sets struct_size; `size` is the caller's sizeof. [any thread] */
@@ -88,7 +88,7 @@ KNURL_API knurl_result knurl_scene_get_surface_info(const knurl_scene *scene, kn
 /** A point on a surface. An output: set struct_size with knurl_surface_point_init() first. */
 typedef struct knurl_surface_point {
     uint32_t struct_size;
-    uint32_t hint;            /**< where the next search begins, with `surface`; its number means nothing else */
+    uint32_t hint;            /**< for the next search, which begins at it and `surface`; no other use */
     knurl_surface_id surface; /**< 0: no point was found, and all other fields are 0 */
     double distance;          /**< m */
     double position[3];       /**< scene axes, m */

@@ -33,7 +33,7 @@ static inline knurl_float4 edges_distance2(const knurl_lanes a, const knurl_lane
     return lanes_dot(at, at);
 }
 
-/* A point, in all lanes: as floats, and what is left of it. */
+/* A point, in all lanes: as floats, and their rounding error. */
 typedef struct knurl_leaf_point {
     knurl_float4 at[3], rest[3];
 } knurl_leaf_point;
@@ -62,7 +62,7 @@ static inline knurl_lanes leaf_corners(const knurl_mesh *mesh, uint32_t first, u
 
 /* Rounding moves a corner, seen from the point, by some 1e-7 of its distance, and a face by that times the product of
  * two edges over their normal's length, which is large in a needle: an error e of the distance d. (d - e)^2 is at least
- * d^2 (1 - share) - e^2 / share. Of 15 million random triangles none needed a fiftieth of this slack. */
+ * d^2 (1 - share) - e^2 / share. 15 million random triangles needed less than a fiftieth of this slack. */
 #define LEAF_SHARE 1e-4f
 #define LEAF_SLACK 1e-9f
 

@@ -50,7 +50,7 @@ static inline void knurl_mesh_frame(const knurl_mesh *mesh, const knurl_contact 
 int knurl_mesh_rates(const knurl_mesh *mesh, const knurl_contact *contact, const double velocity[3],
                      double rates[2]) KNURL_NONBLOCKING;
 
-/* Makes projected coordinates go on across an edge where the projection changes. There they would jump, and half
+/* Makes projected coordinates go on across an edge at which the projection changes. There they would jump, and half
  * cycles would be counted that the HIP has not crossed. begins: 1: the contact's first tick. Allowed in a tick. */
 void knurl_mesh_carry(const knurl_mesh *mesh, const knurl_contact *contact, int begins, knurl_projection_carry *carry,
                       double coordinates[2]) KNURL_NONBLOCKING;

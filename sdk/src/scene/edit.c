@@ -163,5 +163,5 @@ void knurl_scene_collect(knurl_scene *scene) {
         return;
     }
     knurl_scene_lock(scene);
-    knurl_scene_unlock(scene); /* releases what no tick can see */
+    knurl_scene_unlock(scene); /* frees replaced objects that no tick can see */
 }
