@@ -76,5 +76,5 @@ TEST(the_bound_is_never_above_the_distance_and_seldom_far_below) {
     }
     assert_true(tested > 500000);
     printf("leaf bound: %d triangles, %d of them not thin, %d with a close bound\n", tested, good, close);
-    assert_true(close > 0.9 * good); /* not where a point is a thousand times nearer than a triangle is long */
+    assert_true(close > 0.9 * good); /* not if a point is a thousand times nearer than a triangle is long */
 }

@@ -1,5 +1,5 @@
 /* The closest point among many surfaces: the search through the hierarchy, from an earlier answer and in a batch gives
- * what looking at every surface gives, bit for bit. SPDX-License-Identifier: MIT */
+ * the result of a test of every surface, bit for bit. SPDX-License-Identifier: MIT */
 #include "support/poses.h"
 
 #define SURFACES 120

@@ -1,5 +1,5 @@
-/* Meshes without normals that are to be smooth: which edges stay, how rough a mesh is said to be, and how it is asked
- * for. SPDX-License-Identifier: MIT */
+/* Meshes without normals that are to be smooth: hard edges, reported angles, and the setting. SPDX-License-Identifier:
+ * MIT */
 #include "scene/smooth.h"
 
 static knurl_surface_info info_of(knurl_scene *scene, knurl_surface_id surface) {
@@ -128,7 +128,7 @@ TEST(smoothness_is_as_asked_for) {
     smooth_free(&m);
 }
 
-/* A flat mesh is a plane, whatever is asked for; one whose winding is mixed is smooth after it is turned. */
+/* A flat mesh is a plane, even if it is to be smooth; one whose winding is mixed is smooth after it is turned. */
 TEST(computed_normals_come_after_the_other_repairs) {
     shape sheet = shape_sheet(4, 4, (const double[2]){0.02, 0.02}, NULL);
     assert_string_equal(info_as(&sheet, NULL, KNURL_SMOOTH_ON).model, "plane");

@@ -133,7 +133,7 @@ typedef struct room {
     long tick;
 } room;
 
-/* The way of a solid within a tick, where it is touched. */
+/* m: the most that a point of a solid moves in a tick. */
 #define TICK_WAY (0.001 * (SPEED + 0.07 * SPIN))
 
 /* Solids drift about, turning, and stay in the room. */
@@ -221,7 +221,7 @@ static void furnish(room *r, uint64_t *seed, int as_one, int is_smooth) {
 /* m: a ring's mesh is this far off the ring. */
 #define FORM 3e-5
 
-/* A new direction for 20 ticks: towards a solid, or along and into what is touched. */
+/* A new direction for 20 ticks: towards a solid, or along and into the touched one. */
 static void choose_velocity(const room *r, uint64_t *seed, const double at[3], const knurl_tick_output *last,
                             double velocity[3]) {
     random_direction(seed, velocity);
@@ -277,7 +277,8 @@ static void press(room *r, uint64_t *seed, double tolerance, tally *t) {
         }
         double next[3];
         add3(at, 0.001, velocity, next);
-        if (r->moves && last.contacts && distance3(at, last.proxy) > 0.003) { /* gives way to what pushes it */
+        if (r->moves && last.contacts &&
+            distance3(at, last.proxy) > 0.003) { /* the hand yields to a solid that pushes it */
             add3(last.proxy, -1.0, at, velocity);
             add3(at, 0.05, velocity, next);
         }
