@@ -14,6 +14,8 @@
 typedef struct watched {
     double position, velocity, force; /* m, m/s, N: along y */
     double most, fastest;             /* N, N a tick */
+    double begin;                     /* N: the most of the first 20 forces that are not zero */
+    uint64_t forces;                  /* how many were not zero */
     uint64_t reads, fails_at;         /* the read at which `wrong` happens; 0: none */
     enum { LOST, NOT_A_NUMBER, LET_GO } wrong;
     double after; /* N: the most of all forces from 25 ticks after that on */
@@ -41,6 +43,8 @@ static knurl_result read_watched(void *user, knurl_device_sample *sample) {
 static knurl_result write_watched(void *user, const double force[3]) {
     watched *w = user;
     w->most = fmax(w->most, fabs(force[1]));
+    w->forces += force[1] != 0.0;
+    w->begin = w->forces <= 20 ? w->most : w->begin;
     w->fastest = fmax(w->fastest, fabs(force[1] - w->force));
     w->after = w->fails_at > 0 && w->reads > w->fails_at + (w->wrong == LET_GO ? 400 : 25)
                    ? fmax(w->after, fabs(force[1]))
@@ -67,7 +71,8 @@ static knurl_result sweep_watched(watched *w, sweep *result) {
     return code;
 }
 
-/* A sine of 0.8 N at 403 Hz turns by 2.03 N a tick at most; nothing else is faster. */
+/* A sine of 0.8 N at 403 Hz turns by 1.53 N a tick at most; nothing else is faster. It fades in by half a cosine of
+ * 100 ms, beside a slow sine of 0.2 N at 2 Hz. */
 TEST(the_force_is_at_most_a_newton_faded_in_and_zero_in_the_end) {
     watched w = {.force = 0.0};
     static sweep result;
@@ -75,6 +80,7 @@ TEST(the_force_is_at_most_a_newton_faded_in_and_zero_in_the_end) {
     assert_int_equal(result.row_count, 27);
     assert_true(w.most <= 1.0 && w.most > 0.9);
     assert_true(w.fastest <= 2.0 * 0.8 * sin(PI * 0.403) + 0.01);
+    assert_true(w.begin <= 0.4 * (1.0 - cos(PI * 0.2)) + 0.2 * sin(2.0 * PI * 2.0 * 0.02) + 0.01);
     CHECK_SAME(w.force, 0.0);
     for (uint32_t i = 0; i < result.row_count; i++) {
         const double a = PI * result.rows[i].hz / 1000.0;
