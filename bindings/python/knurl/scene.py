@@ -42,8 +42,8 @@ def _method(name: Optional[str]) -> int:
 
 @dataclass
 class Material:
-    """What a surface feels like; knurl_material_desc in knurl/scene.h. method: "S1", "S2", "bandlimited", a name
-    from add_method(), or None."""
+    """What a surface feels like; knurl_material_desc in knurl/scene.h. method: "S1", "S2", "bandlimited", or None.
+    A method of your own by its name, too: add_method()."""
 
     stiffness: float = 400.0
     spatial_frequency: Tuple[float, float] = (0.0, 0.0)
