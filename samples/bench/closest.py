@@ -35,11 +35,12 @@ ALONE, FOLLOWED = 0, 1
 
 def compiled(library):
     """closest_peers.c with the library in it."""
-    made = os.path.join(tempfile.mkdtemp(), "closest_peers.so")
-    subprocess.run([os.environ.get("CC", "cc"), "-O3", "-march=native", "-fPIC", "-shared", "-fvisibility=hidden", "-o", made,
-                    "-I", os.path.join(HERE, "../../sdk/include"), os.path.join(HERE, "closest_peers.c"), library, "-lm",
-                    "-lpthread", "-ldl"], check=True)
-    return ctypes.CDLL(made)
+    with tempfile.TemporaryDirectory() as folder:
+        made = os.path.join(folder, "closest_peers.so")
+        subprocess.run([os.environ.get("CC", "cc"), "-O3", "-march=native", "-fPIC", "-shared", "-fvisibility=hidden", "-o",
+                        made, "-I", os.path.join(HERE, "../../sdk/include"), os.path.join(HERE, "closest_peers.c"), library,
+                        "-lm", "-lpthread", "-ldl"], check=True)
+        return ctypes.CDLL(made)
 
 
 def sheet(triangles):

@@ -170,6 +170,9 @@ int cmd_inspect(int argc, char **argv) {
     if (!path || !path[0]) {
         return tool_error(TOOL_USAGE, "inspect: expected a .gltf or .glb file, found none");
     }
+    if (tool_check_even("inspect", even, response) != TOOL_OK) {
+        return TOOL_USAGE;
+    }
     knurl_scene *scene = NULL;
     uint32_t skipped = 0;
     knurl_scene_desc desc;

@@ -22,6 +22,11 @@ static int read_response(const char *path, knurl_gain gains[KNURL_GAINS]) {
     return knurl_gains_from_response(text, size, gains) ? tool_library_error(TOOL_FAILURE, path) : TOOL_OK;
 }
 
+int tool_check_even(const char *command, int even, const char *response) {
+    return even && response ? tool_error(TOOL_USAGE, "%s: expected --even or --response, found both", command)
+                            : TOOL_OK;
+}
+
 int tool_even(knurl_scene *scene, const char *path, const knurl_device *device, double rate) {
     knurl_gain gains[KNURL_GAINS];
     knurl_device_info info;

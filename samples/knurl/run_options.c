@@ -46,6 +46,9 @@ int run_read_options(int argc, char **argv, run_options *o) {
     if (o->view && o->fast) {
         return tool_error(TOOL_USAGE, "run: expected --view or --fast, found both");
     }
+    if (tool_check_even("run", o->even, o->response) != TOOL_OK) {
+        return TOOL_USAGE;
+    }
     if (knurl_stroke_from_name(o->stroke ? o->stroke : "line", &o->stroke_id)) {
         return tool_library_error(TOOL_USAGE, "run");
     }

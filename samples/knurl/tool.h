@@ -32,6 +32,9 @@ knurl_result tool_load(knurl_scene *scene, const char *path, const knurl_gltf_op
 
 /* --- even sensation (even.c) --- */
 
+/* TOOL_OK, or TOOL_USAGE having said that it is one or the other. */
+int tool_check_even(const char *command, int even, const char *response);
+
 /* --response FILE, or --even (path null): HIP 0's gains, by the file or by the device's mass and friction. TOOL_OK, or
  * TOOL_FAILURE having said why. */
 int tool_even(knurl_scene *scene, const char *path, const knurl_device *device, double rate);

@@ -139,6 +139,25 @@ TEST(a_search_that_begins_at_any_earlier_answer_finds_the_same) {
     }
 }
 
+TEST(a_surface_in_motion_is_found_where_it_is_now) {
+    surface_parts parts = surface_plane();
+    SCOPED_SCENE *scene = empty_scene(1);
+    (void)add_surface(scene, &parts);
+    parts.desc.position[2] = 0.3;
+    const knurl_surface_id lift = add_surface(scene, &parts);
+    configure_plainly(scene, 0);
+    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
+    parts.desc.position[2] = 0.1;
+    assert_int_equal(knurl_scene_set_transform(scene, lift, parts.desc.position, parts.desc.rotation, 0.1), KNURL_OK);
+    for (int tick = 0; tick < 50; tick++) {
+        (void)tick_at(scene, 0.0, 0.0, 5.0);
+    }
+    const double p[3] = {0.01, 0.01, 0.25};
+    const knurl_surface_point found = find(scene, p, 1.0, NULL);
+    assert_true(found.surface == lift);
+    CHECK_CLOSE(found.position[2], 0.2, 0.005L); /* half way; the motion begins within some ticks */
+}
+
 TEST(a_batch_is_its_searches_one_after_another) {
     SCOPED_FIXTURE f = {0};
     set_up(&f);

@@ -79,9 +79,19 @@ TEST(contact_begins_at_its_crest_and_a_check_knows_its_swing) {
     knurl_surface_check_init(&check, sizeof check);
     assert_int_equal(knurl_scene_check_surface(scene, 0, knurl_scene_get_surface(scene, 0), &check), KNURL_OK);
     CHECK_CLOSE(check.amplitude_limit, fmin(3.3 / (K * 3.0), 0.88 / K), 1e-15L);
+    assert_int_equal(check.exceeded & KNURL_LIMIT_AMPLITUDE, 0); /* 1.2 N from trough to crest, of 3.3 */
     (void)tick_at(scene, 0.0, 0.0, 1.51 * A);
     assert_int_equal(tick_at(scene, 0.0, 0.0, 1.501 * A).contacts, 0);
     assert_int_equal(tick_at(scene, 0.0, 0.0, 1.499 * A).contacts, 1);
+}
+
+TEST(a_check_tells_if_its_swing_from_trough_to_crest_exceeds_the_device) {
+    const int32_t method = own_add("high", 5.0, random_height, &random_seed);
+    SCOPED_SCENE *scene = touched(method, 0.0);
+    knurl_surface_check check;
+    knurl_surface_check_init(&check, sizeof check);
+    assert_int_equal(knurl_scene_check_surface(scene, 0, knurl_scene_get_surface(scene, 0), &check), KNURL_OK);
+    assert_int_equal(check.exceeded & KNURL_LIMIT_AMPLITUDE, KNURL_LIMIT_AMPLITUDE); /* 4 N, of 3.3 */
 }
 
 static double count(const knurl_method_input *in, double *memory, void *user) KNURL_NONBLOCKING {

@@ -57,12 +57,24 @@ TEST(a_peak_is_lowered_and_weaker_gains_above_310_hz_stay) {
     CHECK_CLOSE(gains[37].gain / gains[48].gain, 0.25, 1e-3);
 }
 
+/* A gap from 301 to 309 Hz: gain 63, 306.4 Hz, is in it and stays; all gains between 25 and 300 Hz are lowered to its
+ * strength, 1 % of theirs. */
+TEST(ridges_at_300_hz_are_as_strong_although_the_next_gain_above_is_of_a_weaker_frequency) {
+    static const char file[] =
+        HEAD "20,1\n40,1\n250,0.0256\n301,0.0371\n301.1,0.0003\n309,0.0003\n309.1,0.04\n500,0.1\n";
+    knurl_gain gains[KNURL_GAINS];
+    assert_int_equal(gains_of(file, sizeof file - 1, gains), KNURL_OK);
+    assert_true(gains[62].hz < 300.0 && gains[62].gain < 0.02);
+    assert_true(gains[63].hz > 300.0 && gains[63].hz < 310.0);
+    CHECK_SAME(gains[63].gain, 1.0);
+}
+
 /* Faults of a file, and their messages. */
 static const struct {
     const char *file, *sentence;
 } bad[] = {
     {"", "expected a response of 1 to 65536 bytes, found 0"},
-    {"\xef\xbb\xbf", "expected a line end after the last row"},
+    {"\xef\xbb\xbf", "expected a response of 1 to 65536 bytes, found 0"},
     {"frequency_hz,gain\n", "line 1: expected '# knurl response 1', found 'frequency_hz,gain'"},
     {"\xff\xfe#", "line 1: expected '# knurl response 1', found '"},
     {"# knurl response 2\n", "line 1: expected version 1, found '# knurl response 2'"},

@@ -58,6 +58,8 @@ TEST(wrong_usage_of_the_tool_is_reported) {
         {"devices --xml", 2, "--xml"},
         {"signal extra --method T1", 2, "extra"},
         {"run %P --stroke line --trace %G", 2, "--stroke|--trace"},
+        {"run %P --even --response %G", 2, "--even|--response"},
+        {"inspect %P --even --response %G", 2, "--even|--response"},
         {"--version now", 2, "--version: unexpected argument 'now'"},
         {"man run", 2, "man: unexpected argument 'run'"},
         {"completion bash zsh", 2, "completion: unexpected argument 'zsh'"},

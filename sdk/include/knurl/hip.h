@@ -100,10 +100,10 @@ KNURL_API knurl_result knurl_scene_set_gains(knurl_scene *scene, uint32_t hip, c
  * never from a tick] */
 KNURL_API knurl_result knurl_gains_from_response(const char *file, uint64_t size, knurl_gain *gains);
 
-/** The same gains on a model: a device of `mass` (kg) and `viscous` friction (N s/m), as knurl_device_info has them, in
- * a hand of 700 N/m and 5 N s/m, which plays at `update_rate_hz`. For a device that was not measured; dry friction and
- * joints that give are not in it. Errors: KNURL_ERROR_ARGUMENT (also if the mass is 0, not known). [any thread, never
- * from a tick] */
+/** The same gains on a model: a device of `mass` (0.001 to 10 kg) and `viscous` friction (0 to 1000 N s/m), as
+ * knurl_device_info has them, in a hand of 700 N/m and 5 N s/m, which plays at `update_rate_hz` (100 to 10000 Hz). For
+ * a device that was not measured; dry friction and joints that give are not in it. Errors: KNURL_ERROR_ARGUMENT (also
+ * if the mass is 0, not known). [any thread, never from a tick] */
 KNURL_API knurl_result knurl_gains_from_plant(double mass, double viscous, double update_rate_hz, knurl_gain *gains);
 
 /** The workspace map of a HIP, given or chosen by the scene at the commit; if it is moving, its target. Errors:

@@ -181,13 +181,13 @@ static knurl_result read_rows(const char *text, const char *end, response *r) {
 }
 
 static knurl_result parse(const char *file, uint64_t size, response *r) {
-    if (size == 0 || size > BYTES_MAX) {
+    const uint64_t mark = size >= 3 && memcmp(file, "\xef\xbb\xbf", 3) == 0 ? 3 : 0; /* a byte order mark */
+    if (size == mark || size > BYTES_MAX) {
         return knurl_fail(KNURL_ERROR_FORMAT, "expected a response of 1 to %d bytes, found %llu", BYTES_MAX,
-                          (unsigned long long)size);
+                          (unsigned long long)(size - mark));
     }
     const char *end = file + size;
-    const char *text = size >= 3 && memcmp(file, "\xef\xbb\xbf", 3) == 0 ? file + 3 : file; /* a byte order mark */
-    const knurl_result result = text == end ? KNURL_OK : read_rows(text, end, r);
+    const knurl_result result = read_rows(file + mark, end, r);
     if (result) {
         return result;
     }
