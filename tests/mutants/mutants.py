@@ -62,7 +62,7 @@ def commands():
                 word for word in words[first : words.index("-o")] if not word.startswith(("-W", "-fno-tree", "-falign"))
             ]
             if "knurl_gltf.dir/Unity" in str(source):
-                for part in sorted((ROOT / "sdk/src/gltf").glob("*.cpp")):
+                for part in sorted((ROOT / "sdk/src/gltf").rglob("*.cpp")):
                     yield part, options
             elif (ROOT / "sdk/src") in source.parents and source.suffix == ".c":
                 yield source, options

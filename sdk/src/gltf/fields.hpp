@@ -3,8 +3,8 @@
 #ifndef KNURL_GLTF_FIELDS_HPP
 #define KNURL_GLTF_FIELDS_HPP
 
-#include "failure.hpp"
-#include "json_text.hpp"
+#include "file/failure.hpp"
+#include "file/json_text.hpp"
 
 #include <cstdint>
 #include <optional>

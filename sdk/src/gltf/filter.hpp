@@ -4,7 +4,7 @@
 #ifndef KNURL_GLTF_FILTER_HPP
 #define KNURL_GLTF_FILTER_HPP
 
-#include "files.hpp"
+#include "file/files.hpp"
 #include "outline.hpp"
 #include "tinygltf.hpp"
 

@@ -3,7 +3,7 @@
 #ifndef KNURL_GLTF_GUARDED_HPP
 #define KNURL_GLTF_GUARDED_HPP
 
-#include "failure.hpp"
+#include "file/failure.hpp"
 
 #include <new>
 

@@ -3,7 +3,7 @@
 #include <knurl/gltf.h>
 #include <knurl/query.h>
 
-#include "container.hpp"
+#include "file/container.hpp"
 #include "filter.hpp"
 #include "guarded.hpp"
 #include "placement.hpp"

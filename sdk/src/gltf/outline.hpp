@@ -3,7 +3,7 @@
 #ifndef KNURL_GLTF_OUTLINE_HPP
 #define KNURL_GLTF_OUTLINE_HPP
 
-#include "budget.hpp"
+#include "file/budget.hpp"
 #include "tags.hpp"
 
 namespace knurl::gltf {

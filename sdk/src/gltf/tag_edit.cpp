@@ -3,9 +3,9 @@
 // SPDX-License-Identifier: MIT
 #include <knurl/gltf.h>
 
-#include "container.hpp"
+#include "file/container.hpp"
+#include "file/nlohmann.hpp"
 #include "guarded.hpp"
-#include "nlohmann.hpp"
 #include "tags.hpp"
 
 #include <cstring>
