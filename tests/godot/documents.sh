@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Compares the class reference with the engine's view of the classes: exactly their properties, methods and signals are
-# described. usage: documents.sh LIBRARY FOLDER     Exit 77: there is no engine, see run.sh.
+# described; and the scripts that stand in for the classes with the reference. usage: documents.sh LIBRARY FOLDER
+# Exit 77: there is no engine, see run.sh.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
@@ -10,6 +11,7 @@ if [ ! -x "$engine/root/usr/bin/godot" ]; then
     echo "skipped: no Godot in $engine; bindings/godot/engine/fetch.sh $engine brings it"
     exit 77
 fi
+/usr/bin/python3 -B "$root/bindings/godot/standins.py" --check
 rm -rf "$folder"
 mkdir -p "$folder/.godot"
 cd "$folder"

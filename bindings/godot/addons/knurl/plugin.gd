@@ -4,10 +4,12 @@ extends EditorPlugin
 ## warnings, and a button in the 3D view draws the ridges.
 
 const FOLDER := "res://addons/knurl/"
+const Standins := preload("standins.gd")
 
 var _gizmo: EditorNode3DGizmoPlugin
 var _post_import: EditorScenePostImportPlugin
 var _inspector: EditorInspectorPlugin
+var _export: EditorExportPlugin
 var _button: Button
 # The scripts below name Knurl's classes, so they are loaded only if the extension is.
 var _gltf: GDScript
@@ -15,14 +17,24 @@ var _overlay: GDScript
 
 
 func _enter_tree() -> void:
+	_export = load(FOLDER + "export.gd").new()
+	add_export_plugin(_export)
 	if not ClassDB.class_exists(&"KnurlSurface"):
 		push_error(
 			(
 				"Knurl: its library is not loaded: expected one for this platform in %sbin; "
-				+ "the add-on's zip brings it, the folder of a clone does not (see README.md)"
+				+ "the add-on's zip brings it, the folder of a clone does not (see README.md). "
+				+ "Until then games play, but nothing is felt; do not save scenes with Knurl's nodes "
+				+ "here: the engine keeps such nodes, but not their gratings."
 			)
 			% FOLDER
 		)
+		set_process(Standins.install())
+		return
+	set_process(false)
+	if Standins.remove():
+		push_warning("Knurl: its library is there again: restart the editor, which knows stand-ins")
+		set_process(true)
 		return
 	_gltf = load(FOLDER + "import.gd")
 	_overlay = load(FOLDER + "overlay.gd")
@@ -48,6 +60,7 @@ func _enter_tree() -> void:
 
 
 func _exit_tree() -> void:
+	remove_export_plugin(_export)
 	if _gltf == null:
 		return
 	EditorInterface.get_inspector().property_edited.disconnect(_on_property_edited)
@@ -60,6 +73,15 @@ func _exit_tree() -> void:
 	remove_node_3d_gizmo_plugin(_gizmo)
 	remove_scene_post_import_plugin(_post_import)
 	_gltf.unregister()
+
+
+## Has the editor look for classes that have come or gone, once it looks for nothing else. Without
+## await: the editor may reload scripts in the meantime, which ends that.
+func _process(_delta: float) -> void:
+	var files: EditorFileSystem = EditorInterface.get_resource_filesystem()
+	if not files.is_scanning():
+		set_process(false)
+		files.scan()
 
 
 ## Files with tags that were imported while the plugin was off have no surfaces.
