@@ -2,6 +2,7 @@
 #include "follow.h"
 
 #include "geometry.h"
+#include "shapes.h"
 #include "surface_node.h"
 #include "warnings.h"
 #include "watch.h"
@@ -81,11 +82,15 @@ void follow_put(device *d, surface *s) {
         follow_remove(d, s);
         return;
     }
-    const knurl_result failed = surface_put(s, knurl_session_get_scene(d->session), &at, &s->ids[d->slot]);
+    const shape_key key = shapes_key(s, at.rest, d->slot);
+    shape *shared = shapes_find(&key);
+    const knurl_result failed =
+        surface_put(s, knurl_session_get_scene(d->session), &at, shared ? shapes_user(shared) : 0, &s->ids[d->slot]);
     if (failed) {
         refuse(d, s, failed);
         return;
     }
+    shapes_join(s, &key, shared);
     s->tries = 0;
     warnings_keep(s, NULL);
     surface_placement *placement = &s->placements[d->slot];
@@ -100,6 +105,7 @@ void follow_put(device *d, surface *s) {
 void follow_remove(device *d, surface *s) {
     const knurl_surface_id id = s->ids[d->slot];
     if (id) {
+        shapes_leave(s, d->slot);
         s->ids[d->slot] = 0;
         /* signals.c reports the end of a contact */
         (void)knurl_scene_remove_surface(knurl_session_get_scene(d->session), id);

@@ -79,7 +79,7 @@ static int explain(surface *s, const knurl_session_pose *at, const device *d, ch
     knurl_session *session = NULL;
     knurl_surface_id id = 0;
     knurl_result result = knurl_session_create(&session);
-    result = result ? result : surface_put(s, knurl_session_get_scene(session), at, &id);
+    result = result ? result : surface_put(s, knurl_session_get_scene(session), at, 0, &id);
     if (result) {
         (void)snprintf(why, sizeof why, "It cannot be felt: %s.", knurl_error_message());
     } else if (d && !hold_against(d, preset_of(d), session)) {

@@ -2,6 +2,7 @@
 #include "explain.h"
 #include "follow.h"
 #include "serve.h"
+#include "shapes.h"
 #include "signals.h"
 #include "warnings.h"
 #include "watch.h"
@@ -120,6 +121,7 @@ static void update_mesh(void *self, const void *const *arguments, void *result) 
     (void)result;
     unwatch_mesh(s); /* the parent may have changed */
     s->meshes_seen++;
+    shapes_expire(s);
     if (gd_is_in_editor()) {
         watch_mesh(s);
     }

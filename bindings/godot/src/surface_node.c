@@ -40,37 +40,49 @@ static knurl_result add_or_replace(knurl_scene *scene, const knurl_surface_desc 
     return *id ? knurl_scene_replace_surface(scene, *id, desc) : knurl_scene_add_surface(scene, desc, id);
 }
 
-knurl_result surface_put(surface *s, knurl_scene *scene, const knurl_session_pose *at, knurl_surface_id *id) {
-    char name[128];
-    mesh_data data;
-    knurl_surface_desc desc;
-    knurl_mesh_desc mesh;
-    knurl_material_desc material;
-    gd_node_name(surface_parent(s), name, sizeof name);
-    knurl_surface_desc_init(&desc, sizeof desc);
-    grating_describe(s->grating, &material);
-    desc.name = name;
-    desc.mesh = &mesh;
-    desc.material = &material;
-    desc.double_sided = s->double_sided;
-    desc.coordinates = s->box_coordinates ? KNURL_COORDINATES_BOX : KNURL_COORDINATES_AUTO;
-    desc.smooth = (int32_t)s->smooth;
-    memcpy(desc.position, at->position, sizeof desc.position);
-    memcpy(desc.rotation, at->quaternion, sizeof desc.rotation);
-    for (int i = 0; i < 3; i++) { /* the axis is in the mesh's axes: scaled like the mesh */
+/* The axis is in the mesh's axes: scaled like the mesh. */
+static void describe_shape(const surface *s, const knurl_session_pose *at, knurl_surface_desc *desc) {
+    desc->coordinates = s->box_coordinates ? KNURL_COORDINATES_BOX : KNURL_COORDINATES_AUTO;
+    desc->smooth = (int32_t)s->smooth;
+    for (int i = 0; i < 3; i++) {
         float axis = 0.0F;
         for (int j = 0; j < 3; j++) {
             axis += (float)at->rest[3 * i + j] * s->axis[j];
         }
-        desc.axis[i] = (double)axis;
+        desc->axis[i] = (double)axis;
     }
+}
+
+static knurl_result read_and_put(surface *s, knurl_scene *scene, const knurl_session_pose *at, knurl_surface_desc *desc,
+                                 knurl_surface_id *id) {
+    mesh_data data;
+    knurl_mesh_desc mesh;
+    describe_shape(s, at, desc);
+    desc->mesh = &mesh;
     const int fits = geometry_read(surface_parent(s), at->rest, &data);
     knurl_result result = fits ? KNURL_OK : knurl_fail(KNURL_ERROR_MEMORY, "no memory to read its mesh with");
     if (fits && data.index_count == 0) {
         result = knurl_fail(KNURL_ERROR_STATE, "its mesh has no triangles");
     }
     mesh_describe(&data, &mesh);
-    result = result ? result : add_or_replace(scene, &desc, id);
+    result = result ? result : add_or_replace(scene, desc, id);
     mesh_end(&data);
     return result;
+}
+
+knurl_result surface_put(surface *s, knurl_scene *scene, const knurl_session_pose *at, knurl_surface_id shape_of,
+                         knurl_surface_id *id) {
+    char name[128];
+    knurl_surface_desc desc;
+    knurl_material_desc material;
+    gd_node_name(surface_parent(s), name, sizeof name);
+    knurl_surface_desc_init(&desc, sizeof desc);
+    grating_describe(s->grating, &material);
+    desc.name = name;
+    desc.material = &material;
+    desc.double_sided = s->double_sided;
+    desc.shape_of = shape_of;
+    memcpy(desc.position, at->position, sizeof desc.position);
+    memcpy(desc.rotation, at->quaternion, sizeof desc.rotation);
+    return shape_of ? add_or_replace(scene, &desc, id) : read_and_put(s, scene, at, &desc, id);
 }

@@ -21,7 +21,9 @@ int node_pose(GDExtensionObjectPtr node, knurl_session_pose *pose);
 int surface_is_on_layer_of(const surface *s, const device *d);
 
 /* Puts a surface into a scene, replacing *id, or as a new surface, whose id *id receives, if that is 0. It must have a
- * grating and a parent that can be felt. KNURL_ERROR_STATE: there are no triangles yet. */
-knurl_result surface_put(surface *s, knurl_scene *scene, const knurl_session_pose *at, knurl_surface_id *id);
+ * grating and a parent that can be felt. shape_of: a surface of the scene with the same shape, or 0: it is read from
+ * the parent. KNURL_ERROR_STATE: there are no triangles yet. */
+knurl_result surface_put(surface *s, knurl_scene *scene, const knurl_session_pose *at, knurl_surface_id shape_of,
+                         knurl_surface_id *id);
 
 #endif

@@ -12,8 +12,12 @@ enum { DEVICE_SLOTS = 8, ALL_SLOTS = 255 };
 /* Frames to wait for the meshes of a node that builds its own, before it counts as empty. */
 enum { TRIES = 10 };
 
+typedef struct shape shape; /* see shapes.h */
+
 /* A surface in a running device's scene, as it was last added or moved there. */
 typedef struct surface_placement {
+    shape *shape;                              /* or null: not shared */
+    struct surface *next_user, *previous_user; /* of the shape */
     knurl_session_way way;
     float basis[3][3];    /* the node's */
     double quaternion[4]; /* from the basis: the rotation, */
