@@ -109,7 +109,7 @@ TEST_WITH(on_ridges_of_0_4_mm_every_runaway_is_stopped, NULL, drop_signals) {
     tell_counts(&n);
     assert_true(20 * n.runaways > n.cells && 2 * n.calm > n.cells);
     assert_int_equal(n.stopped, n.runaways);
-    assert_true(fine ? 300 * n.changed <= n.calm : n.changed == 0);
+    assert_true(fine ? 200 * n.changed <= n.calm : n.changed == 0);
 }
 
 static const char *const devices[] = {"preset=touch", "preset=falcon"};
