@@ -222,6 +222,34 @@ func comes_late() -> void:
 	clear()
 
 
+# As the engine's bodies: a branch that is disabled is not in the way.
+func disabled_branches() -> void:
+	var branch := Node3D.new()
+	var s := make_surface(plate())
+	root.add_child(branch)
+	s.get_parent().reparent(branch)
+	var d := make_device()
+	d.start()
+	await frames(2)
+	check("felt", s.get_triangle_count() == 2)
+	branch.process_mode = Node.PROCESS_MODE_DISABLED
+	await frames(2)
+	check("not felt in a disabled branch", s.get_triangle_count() == 0 and d.get_status().surfaces == 0)
+	check("which it tells", "process mode Disabled" in " ".join(s.get_warnings()), s.get_warnings())
+	s.process_mode = Node.PROCESS_MODE_ALWAYS
+	await frames(2)
+	check("felt with a mode of its own", s.get_triangle_count() == 2)
+	s.process_mode = Node.PROCESS_MODE_INHERIT
+	root.remove_child(branch)
+	root.add_child(branch)
+	await frames(2)
+	check("not when a disabled branch enters the tree", s.get_triangle_count() == 0)
+	branch.process_mode = Node.PROCESS_MODE_INHERIT
+	await frames(2)
+	check("felt again", s.get_triangle_count() == 2)
+	clear()
+
+
 func tests() -> void:
 	fronts()
 	await scales()
@@ -231,3 +259,4 @@ func tests() -> void:
 	directions()
 	warns()
 	await comes_late()
+	await disabled_branches()

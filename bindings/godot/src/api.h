@@ -67,6 +67,7 @@
     X(Node, get_parent, 3160264692)                                                                                    \
     X(Node, get_name, 2002593661)                                                                                      \
     X(Node, is_inside_tree, 36873697)                                                                                  \
+    X(Node, get_process_mode, 739966102)                                                                               \
     X(Node, set_process_internal, 2586408642)                                                                          \
     X(Node, update_configuration_warnings, 3218959716)                                                                 \
     X(Node3D, get_transform, 3229777777)                                                                               \

@@ -104,6 +104,8 @@ enum {
     GD_PAUSED = 14,
     GD_UNPAUSED = 15,
     GD_INTERNAL_PROCESS = 25,
+    GD_DISABLED = 28, /* of process modes */
+    GD_ENABLED = 29,
     GD_TRANSFORM_CHANGED = 2000
 };
 

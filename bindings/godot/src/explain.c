@@ -119,7 +119,7 @@ static void say_hidden(GDExtensionObjectPtr parent, char *text, size_t size) {
 
 /* Warnings that follow from its nodes. */
 static void say_facts(const surface *s, const knurl_session_pose *at, char *text, size_t size) {
-    if (s->enabled) {
+    if (s->enabled && !s->is_disabled) {
         say_hidden(surface_parent(s), text, size);
     }
     say_away(s, text, size);
@@ -163,6 +163,9 @@ void explain_surface(surface *s, const device *only, char *text, size_t size) {
     if (!node_pose(s->base.object, &at)) {
         say(text, size, "It is scaled to nothing.");
         return;
+    }
+    if (s->is_disabled) {
+        say(text, size, "Its branch has the process mode Disabled: it is not felt, as bodies there have no physics.");
     }
     if (has_shape) {
         say_facts(s, &at, text, size);

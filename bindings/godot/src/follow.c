@@ -36,7 +36,7 @@ void follow_count_failures(device *d) {
 static int can_be_felt(const surface *s) {
     char refusal[512];
     geometry_refuse(surface_parent(s), refusal, sizeof refusal);
-    return s->enabled && s->grating && !s->is_leaving && !refusal[0];
+    return s->enabled && !s->is_disabled && s->grating && !s->is_leaving && !refusal[0];
 }
 
 static void keep_rotation(surface_placement *placement, const gd_transform *transform, const double quaternion[4]) {

@@ -134,12 +134,17 @@ static void add_normals(const void *arrays, uint32_t count, const double baked[9
     end(&normals);
 }
 
-static void add_uvs(const void *arrays, uint32_t count, mesh_data *data) {
+/* UVs grow with a mesh's size, so that instances of different sizes have as many metres per u: Knurl knows one mean. */
+static void add_uvs(const void *arrays, uint32_t count, const double matrix[9], mesh_data *data) {
+    const double size = cbrt(fabs(determinant(matrix)));
     packed uvs =
         take(arrays, ARRAY_TEX_UV, GDEXTENSION_VARIANT_TYPE_PACKED_VECTOR2_ARRAY, gd_builtin.PACKED_VECTOR2_ARRAY_size);
     if (uvs.size == (int64_t)count) {
-        memcpy(data->uvs + 2 * (size_t)data->vertex_count, gd.packed_vector2_array_operator_index_const(uvs.opaque, 0),
-               2 * (size_t)count * sizeof(float));
+        const float *from = gd.packed_vector2_array_operator_index_const(uvs.opaque, 0);
+        float *to = data->uvs + 2 * (size_t)data->vertex_count;
+        for (size_t i = 0; i < 2 * (size_t)count; i++) {
+            to[i] = (float)(size * (double)from[i]);
+        }
     } else {
         data->has_uvs = 0;
     }
@@ -191,7 +196,7 @@ static int add_surface(const void *arrays, const mesh_place *place, mesh_data *d
         add_positions(gd.packed_vector3_array_operator_index_const(positions.opaque, 0), count, place, data);
         add_normals(arrays, count, place->matrix, data);
         add_tangents(arrays, count, place->matrix, data);
-        add_uvs(arrays, count, data);
+        add_uvs(arrays, count, place->matrix, data);
         data->vertex_count = (uint32_t)total;
     }
     end(&positions);

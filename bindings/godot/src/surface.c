@@ -128,8 +128,27 @@ static void update_mesh(void *self, const void *const *arguments, void *result) 
     make_anew(s);
 }
 
+/* Whether the first node upwards with a process mode of its own is disabled. The engine's bodies ask the same. */
+static uint8_t is_in_disabled_branch(GDExtensionObjectPtr node) {
+    enum { INHERIT = 0, DISABLED = 4 };
+    int64_t mode = INHERIT;
+    while (node && mode == INHERIT) {
+        gd_call(gd_method.Node_get_process_mode, node, NULL, &mode);
+        GDExtensionObjectPtr parent = NULL;
+        gd_call(gd_method.Node_get_parent, node, NULL, &parent);
+        node = parent;
+    }
+    return mode == DISABLED;
+}
+
+static void disable(surface *s, uint8_t is_disabled) {
+    s->is_disabled = is_disabled;
+    make_anew(s);
+}
+
 static void enter(surface *s) {
     const uint8_t notify = 1;
+    s->is_disabled = is_in_disabled_branch(s->base.object);
     s->is_leaving = 0;
     if (!s->is_listed) {
         surface_list(s);
@@ -181,6 +200,10 @@ static void notify(void *self, int32_t what) {
         s->moved = ALL_SLOTS;
         gd_call(gd_method.Engine_is_in_physics_frame, gd_engine, NULL, &s->by_physics);
         surface_mark(s);
+        break;
+    case GD_DISABLED:
+    case GD_ENABLED:
+        disable(s, what == GD_DISABLED);
         break;
     case GD_EXIT_TREE:
         leave(s);

@@ -38,10 +38,11 @@ typedef struct surface {
     GDExtensionObjectPtr watched_parent;      /* the node whose changes are followed, or null */
     uint64_t meshes_seen;                     /* number of changes of its mesh */
     uint64_t explained;                       /* hash of the state that `explanation` was made for; 0: not made yet */
-    char *explanation;  /* in the editor: its devices' warnings; in a game: why it is not felt; or null */
-    uint8_t is_listed;  /* 1: among `surfaces` */
-    uint8_t is_leaving; /* 1: out of the tree since the last frame; it may come back at once */
-    uint8_t is_dying;   /* 1: being freed */
+    char *explanation;   /* in the editor: its devices' warnings; in a game: why it is not felt; or null */
+    uint8_t is_listed;   /* 1: among `surfaces` */
+    uint8_t is_disabled; /* 1: its branch has the process mode DISABLED */
+    uint8_t is_leaving;  /* 1: out of the tree since the last frame; it may come back at once */
+    uint8_t is_dying;    /* 1: being freed */
     uint8_t moved, changed, made_anew;  /* masks: running devices that have not handled it yet */
     uint8_t tries;                      /* frames in which its parent had no triangles yet; stays at TRIES */
     uint8_t by_physics;                 /* 1: last moved by a physics step */

@@ -2,7 +2,8 @@
 class_name KnurlOverlay
 extends Node
 ## Draws the ridges of a [KnurlSurface] over its mesh, as they will be felt: period, orientation,
-## grid.
+## grid. On a [MeshInstance3D], [MultiMeshInstance3D] and [CSGShape3D], on uvs or an axis; it does not
+## draw box coordinates, whose phase the haptic scene finds, and not on a [GridMap].
 ##
 ## [codeblock]
 ## KnurlOverlay.set_shown(get_tree().root, true) # on all surfaces below; false removes it
@@ -92,14 +93,16 @@ func _exit_tree() -> void:
 ## change.
 func _process(_delta: float) -> void:
 	var surface := get_parent() as KnurlSurface
-	var parent := surface.get_parent() as MeshInstance3D
-	if parent == null or parent.mesh == null or surface.grating == null or not surface.enabled:
+	var parent := surface.get_parent() as GeometryInstance3D
+	var mesh: Mesh = _mesh_of(parent)
+	if mesh == null or surface.grating == null or not surface.enabled or surface.box_coordinates:
 		_draw_on(null)
 		return
 	var basis: Basis = parent.global_basis
-	if _measured != [parent.mesh, basis]:
-		_measured = [parent.mesh, basis]
-		_material.set_shader_parameter(&"uv_scale", measure_uvs(parent.mesh, basis))
+	if _measured != [mesh, basis]:
+		_measured = [mesh, basis]
+		_material.set_shader_parameter(&"uv_scale", measure_uvs(mesh, basis))
+		_material.set_shader_parameter(&"volume", absf(basis.determinant()))
 	var by_axis: bool = not surface.axis.is_zero_approx()
 	var has_coordinates: bool = (
 		by_axis or _material.get_shader_parameter(&"uv_scale") != Vector2.ZERO
@@ -126,7 +129,20 @@ func _process(_delta: float) -> void:
 		RenderingServer.instance_geometry_set_material_overlay(_drawn_on, _material.get_rid())
 
 
-func _draw_on(parent: MeshInstance3D) -> void:
+## What a node draws: one mesh, or null.
+func _mesh_of(node: GeometryInstance3D) -> Mesh:
+	if node is MeshInstance3D:
+		return (node as MeshInstance3D).mesh
+	if node is MultiMeshInstance3D:
+		var many: MultiMesh = (node as MultiMeshInstance3D).multimesh
+		return many.mesh if many != null else null
+	if node is CSGShape3D:
+		var pair: Array = (node as CSGShape3D).get_meshes()  # a Transform3D, the mesh
+		return pair[1] if pair.size() == 2 else null
+	return null
+
+
+func _draw_on(parent: GeometryInstance3D) -> void:
 	var instance: RID = parent.get_instance() if parent != null else RID()
 	if instance == _drawn_on:
 		return
@@ -140,6 +156,6 @@ func _draw_on(parent: MeshInstance3D) -> void:
 		RenderingServer.instance_geometry_set_material_overlay(instance, _material.get_rid())
 
 
-func _owner_of_drawn() -> MeshInstance3D:
-	var parent := get_parent().get_parent() as MeshInstance3D
+func _owner_of_drawn() -> GeometryInstance3D:
+	var parent := get_parent().get_parent() as GeometryInstance3D
 	return parent if parent != null and parent.get_instance() == _drawn_on else null

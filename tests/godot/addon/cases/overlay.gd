@@ -74,6 +74,9 @@ func run() -> void:
 	await expect("scaled, on an axis", Vector2(600, 400), 0.2, Vector3(1, 0, 0), Vector2.ZERO)
 	plate.scale = Vector3.ONE
 	await expect_fade()
+	root.remove_child(plate)
+	await expect_others()
+	root.add_child(plate)
 	await expect_off(before)
 
 
@@ -142,6 +145,78 @@ func expect_fade() -> void:
 		low = minf(low, value)
 		high = maxf(high, value)
 	checks.check(high - low < 0.4, "ridges of 0.3 pixels do not alias (%.2f to %.2f)" % [low, high])
+
+
+## Nodes other than mesh instances: as many ridges are drawn as are felt, and as there are.
+func expect_others() -> void:
+	var many := MultiMeshInstance3D.new()
+	var tile := PlaneMesh.new()
+	tile.size = Vector2(0.008, 0.008)
+	many.multimesh = MultiMesh.new()
+	many.multimesh.transform_format = MultiMesh.TRANSFORM_3D
+	many.multimesh.mesh = tile
+	many.multimesh.instance_count = 2
+	many.multimesh.set_instance_transform(0, Transform3D(Basis(), Vector3(-0.01, 0, 0)))
+	many.multimesh.set_instance_transform(
+		1, Transform3D(Basis.from_scale(2 * Vector3.ONE), Vector3(0.005, 0, 0))
+	)
+	show_ridges(many, Vector2(1000, 0))
+	await expect_ridges("a small instance", -0.0135, -0.0065, 7.0)
+	await expect_ridges("a large one of the same multimesh", -0.002, 0.012, 14.0)
+	var box := CSGBox3D.new()
+	box.size = Vector3(0.02, 0.02, 0.02)
+	box.position.y = -0.01
+	many.free()
+	show_ridges(box, Vector2(0, 1000))  # v runs along x on its top
+	await expect_ridges("a CSG box", -0.009, 0.009, 18.0)
+	box.free()
+
+
+func show_ridges(node: Node3D, frequency: Vector2) -> void:
+	var felt: Node3D = ClassDB.instantiate(&"KnurlSurface")
+	felt.grating = ClassDB.instantiate(&"KnurlGrating")
+	felt.grating.spatial_frequency = frequency
+	node.add_child(felt)
+	root.add_child(node)
+	overlay.set_shown(root, true)
+
+
+## Ridges along x, from one place to another.
+func expect_ridges(what: String, from: float, to: float, expected: float) -> void:
+	var image: Image = await picture()
+	var drawn: Array[float] = []
+	@warning_ignore("integer_division")
+	for column: int in range(to_column(image, from), to_column(image, to)):
+		@warning_ignore("integer_division")
+		drawn.append(image.get_pixel(column, image.get_height() / 2).g)
+	checks.close(0.5 * crossings(drawn), expected, 1.0, "%s: ridges that are drawn" % what)
+	var device: Node3D = ClassDB.instantiate(&"KnurlDevice")
+	device.autostart = false
+	device.device = "fake"
+	root.add_child(device)
+	var rows: PackedFloat64Array = [
+		0.0, from, 0.004, 0.001, 0.2, from, -0.0005, 0.001, 1.2, to, -0.0005, 0.001
+	]
+	var forces: PackedFloat64Array = device.play_trace(rows, 1190)
+	var pushed: Array[float] = []
+	for i: int in range(210, 1190):
+		pushed.append(forces[3 * i + 1])
+	checks.close(0.5 * crossings(pushed), expected, 1.0, "%s: ridges that are felt" % what)
+	root.remove_child(device)
+	device.free()
+
+
+func to_column(image: Image, x: float) -> int:
+	return roundi(0.5 * image.get_width() + x * 1e3 * PIXELS_PER_MM)
+
+
+## How often values cross the middle of their range.
+func crossings(values: Array[float]) -> int:
+	var middle: float = 0.5 * (values.min() + values.max())
+	var count := 0
+	for i: int in range(1, values.size()):
+		count += 1 if (values[i] > middle) != (values[i - 1] > middle) else 0
+	return count
 
 
 func expect_off(before: Image) -> void:

@@ -90,7 +90,8 @@ namespace Knurl
         /// <summary>If true, it can be touched from behind as well.</summary>
         public bool DoubleSided { get { return Object.Get("double_sided").AsBool(); } set { Object.Set("double_sided", value); } }
 
-        /// <summary>If true, it can be felt, even if its parent is hidden, as with colliders.</summary>
+        /// <summary>If true, it can be felt, even if its parent is hidden, as with colliders. A surface whose branch
+        /// has Node.PROCESSMODEDISABLED is not felt, like the engine's bodies.</summary>
         public bool Enabled { get { return Object.Get("enabled").AsBool(); } set { Object.Set("enabled", value); } }
 
         /// <summary>Texture and wall of the surface.</summary>
