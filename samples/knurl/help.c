@@ -30,7 +30,7 @@ typedef struct help_command {
 
 #define STUDIES                                                                                                        \
     "signals, coverage, temporal, device, gratings, preferences, tradeoff, velocity, tracking, even, half_cycles,\n"   \
-    "transitions, smooth, failures, stability"
+    "transitions, smooth, creases, failures, stability"
 #define METHODS "METHOD" /* replaced by the names of the library's table */
 #define BUDGET  {"--budget", "NAME=N,...", "limits of loading: surfaces, bytes, vertices, triangles, seconds"}
 #define PRETTY  {"--pretty", "", "JSON over several lines"}

@@ -15,6 +15,7 @@ const study studies[] = {
     {"half_cycles", "the impulse of every half cycle, whatever the speed and the tessellation", study_half_cycles},
     {"transitions", "what becomes of an event when hand, surface or material change in it", study_transitions},
     {"smooth", "a low-poly ring felt as its triangles and as it looks, and what that costs", study_smooth},
+    {"creases", "the force in a crease of two walls, however they are cut into surfaces", study_creases},
     {"failures", "the catalogue of failures: each method, each way it fails, as a number and a trace", study_failures},
     {"stability", "where walls and gratings run away or buzz: checks against theory, and maps", study_stability},
     {NULL, NULL, NULL}};

@@ -29,6 +29,7 @@ int study_velocity(const char *folder);    /* the velocity estimators, to choose
 int study_even(const char *folder);        /* gains for even sensation; prints them */
 int study_half_cycles(const char *folder); /* every half cycle's impulse, on facets too; prints its table */
 int study_smooth(const char *folder);      /* a ring's triangles against its normals; prints its table */
+int study_creases(const char *folder);     /* one force however a crease is cut; prints its table */
 int study_transitions(const char *folder); /* turns, stops, lift-off, changes in an event; prints its table */
 int study_failures(const char *folder);    /* failures of methods; also writes failures.md */
 int study_stability(const char *folder);   /* runaways of walls and gratings; prints its checks */

@@ -102,15 +102,12 @@ static inline void knurl_force_law(const knurl_hip_motion *hip, const knurl_acti
         out->cycles[0] = out->cycles[1] = 0.0;
     }
     wall->height = out->grating.height;
-    vec3_scale(knurl_normal_force(wall, vec3_dot(over, c->contact.normal)), c->normal, out->force);
-    if (KNURL_UNLIKELY(c->is_sharp) && c->contact.z < 0.0) { /* ramped as the depth is; a smooth mesh may have none */
-        vec3_madd(out->force, wall->stiffness * (wall->z / c->contact.z), c->candidate->excess, out->force);
-    }
+    vec3_scale(c->share * knurl_normal_force(wall, vec3_dot(over, c->contact.normal)), c->normal, out->force);
     if (c->record->material.friction > 0.0) {
         double tangential[3], force[3];
         knurl_friction_force(c, wall, tangential);
         knurl_pose_vector_to_parent(c->pose, tangential, force);
-        vec3_madd(out->force, 1.0, force, out->force);
+        vec3_madd(out->force, c->friction_share, force, out->force);
     }
 }
 

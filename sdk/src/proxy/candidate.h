@@ -33,7 +33,6 @@ typedef struct knurl_candidate {
     double normal[3];
     uint32_t is_unfelt; /* 1: a smooth mesh's triangles, but not its surface, were in contact at the last tick */
     double anchor[3];   /* friction: the point where the HIP sticks, shape's frame */
-    double excess[3];   /* in a sharp crease: push missing from the contact's depth, scene, m */
     knurl_projection_carry carry; /* of projected coordinates */
     float box[6];                 /* scene axes; there is no contact outside it */
     float swept[6];               /* scene axes: swept by the motion of `swept_of`, with crests, without margin */

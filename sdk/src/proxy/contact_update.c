@@ -90,7 +90,8 @@ static inline int hold_alone(knurl_contacts *c, const knurl_broad_index *index, 
     vec3_copy(normal, candidate->normal);
     vec3_copy(hip, candidate->previous);
     a->normal = candidate->normal;
-    a->begins = a->is_unfelt = a->is_sharp = 0;
+    a->begins = a->is_unfelt = 0;
+    a->share = a->friction_share = 1.0;
     a->felt.parts.count = 0;
     c->now.count = 1;
     c->proxy.holders = (uint32_t)state->inside;

@@ -32,9 +32,24 @@ int knurl_contacts_add(knurl_contacts *c, knurl_candidate *candidate, const knur
     knurl_pose_vector_to_parent(a->pose, a->contact.normal, candidate->normal);
     a->normal = candidate->normal;
     a->is_unfelt = 0;
+    a->share = a->friction_share = 1.0;
     a->felt.parts.count = 0;
     if (touched->parts.count > 0) {
         a->felt.parts = touched->parts;
     }
     return 1;
+}
+
+double knurl_contacts_share(const knurl_contacts *c, knurl_active_contact *a) {
+    const double whole = c->proxy.whole, depth = c->proxy.depth, z = a->contact.z;
+    if (a->candidate->contact.inside && whole > 0.0) {
+        a->share = z < 0.0 ? -z / whole : 0.0;
+        a->friction_share = a->share * vec3_dot(a->normal, c->proxy.normal);
+        knurl_pose_vector_to_own(a->pose, c->proxy.normal, a->contact.normal);
+        return -whole;
+    }
+    if (!a->candidate->contact.inside && c->proxy.holders > 0 && depth > 0.0) {
+        a->share = z > 0.0 ? z / sqrt(z * z + depth * depth) : 0.0;
+    }
+    return z;
 }

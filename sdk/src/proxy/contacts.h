@@ -20,14 +20,14 @@
 typedef struct knurl_active_contact {
     const knurl_surface_data *surface;
     const knurl_record *record;
-    knurl_candidate *candidate; /* state kept from tick to tick, with the contact's proxy and normal */
-    const knurl_pose *pose;     /* of the shape's frame, now */
-    knurl_contact contact;      /* shape's frame */
-    int32_t is_sharp;           /* 1: the candidate's `excess` is added to the force */
-    int32_t begins;             /* 1: not in contact at the last tick */
-    int32_t is_unfelt;          /* 1: in contact with a smooth mesh's triangles, but not with its surface */
-    const double *normal;       /* as felt, scene: the candidate's, or that of `felt` */
-    struct {                    /* on a smooth mesh, whose triangles hold the proxy */
+    knurl_candidate *candidate;   /* state kept from tick to tick, with the contact's proxy and normal */
+    const knurl_pose *pose;       /* of the shape's frame, now */
+    knurl_contact contact;        /* shape's frame */
+    double share, friction_share; /* of its force across and along it; 1 if it is alone */
+    int32_t begins;               /* 1: not in contact at the last tick */
+    int32_t is_unfelt;            /* 1: in contact with a smooth mesh's triangles, but not with its surface */
+    const double *normal;         /* as felt, scene: the candidate's, or that of `felt` */
+    struct {                      /* on a smooth mesh, whose triangles hold the proxy */
         knurl_felt_parts parts;
         double normal[3];  /* scene */
         knurl_facet facet; /* the plane that touches the surface there */
@@ -62,6 +62,7 @@ typedef struct knurl_proxy {
     double normal[3];    /* unit */
     double depth;        /* m; 0 if no surface held the HIP */
     double ramped_depth; /* m: as limited by the entry ramp; a contact that begins continues from it */
+    double whole;        /* m: depth that its holders share; 0: each has its own */
     uint32_t holders;    /* surfaces that held the HIP */
 } knurl_proxy;
 
@@ -99,11 +100,15 @@ static inline int knurl_contacts_have_slipped(const knurl_contacts *c) {
     return KNURL_UNLIKELY(c->clock.time - c->slip.time < KNURL_SLIP_SECONDS) && c->slip.time >= 0.0;
 }
 
-/* Adds a contact to this tick's. pose: of the shape's frame, now. Returns 0 if there is no room; the next tick tests
- * the surface again. */
+/* Adds a contact. pose: of the shape's frame, now. Returns 0 if there is no room; the next tick tests it again. */
 int knurl_contacts_add(knurl_contacts *contacts, knurl_candidate *candidate, const knurl_surface_data *surface,
                        const knurl_record *record, const knurl_pose *pose,
                        const knurl_touched *touched) KNURL_NONBLOCKING;
+
+/* Finds the share of one of several contacts. Surfaces that hold the HIP together are one wall, as one mesh is, and
+ * each pushes its share along its own normal. A crest ahead of the proxy counts less, the deeper the HIP is in others:
+ * it ends with 0, as the share begins. Sets the contact's normal to that of all. Returns the wall's z, m. */
+double knurl_contacts_share(const knurl_contacts *contacts, knurl_active_contact *contact) KNURL_NONBLOCKING;
 
 /* Lets a HIP that has not ticked for a while take over the time of a moving surface. */
 static inline void knurl_contacts_catch_up(knurl_contacts *contacts, const knurl_motion *motion) {

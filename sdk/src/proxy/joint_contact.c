@@ -191,8 +191,6 @@ static void update_contacts(knurl_joint_search *m, uint64_t which, uint32_t *fla
             knurl_candidate_end_contact(candidate);
         } else if (!knurl_contacts_add(m->contacts, candidate, o->surface, o->record, o->pose, &m->touched[i])) {
             *flags |= KNURL_TICK_CONTACTS_FULL;
-        } else {
-            m->contacts->now.list[m->contacts->now.count - 1].is_sharp = m->sharp >> i & 1;
         }
         candidate->is_late = (m->late >> i & 1) != 0 && candidate->has_previous;
         candidate->has_previous = 1;
@@ -258,6 +256,7 @@ static void commit(knurl_joint_search *m, uint32_t *flags) {
     vec3_copy(m->proxy, c->proxy.at);
     vec3_copy(m->normal, c->proxy.normal);
     c->proxy.holders = m->pressed;
+    c->proxy.whole = m->whole;
     c->slip.time = m->pressed ? -1.0 : c->slip.time;
 }
 
@@ -271,7 +270,7 @@ void knurl_joint_contact(knurl_contacts *c, const knurl_broad_index *index, cons
     m.unknown = 0;
     m.queried = 0;
     m.late = 0;
-    m.sharp = 0;
+    m.whole = 0.0;
     m.hip = path->to;
     m.margin = knurl_hip_path_margin(path);
     vec3_copy(c->proxy.normal, m.normal);

@@ -7,71 +7,83 @@
 
 #include <string.h>
 
-/* Adds up the pressed faces of one obstacle to one contact. longest: m, limit on its depth. */
-static void sum_faces(const knurl_joint_search *m, const knurl_active_faces *faces, uint32_t obstacle, double longest,
-                      knurl_touched *touched) {
-    const knurl_obstacle *o = &m->near.list[obstacle];
+/* Adds up the pressed faces of one obstacle to its push, scene, m. */
+static const knurl_active_face *sum_faces(const knurl_active_faces *faces, uint32_t obstacle, double push[3]) {
     const knurl_active_face *most = NULL;
-    double sum[3] = {0.0, 0.0, 0.0};
-    double own[3];
+    push[0] = push[1] = push[2] = 0.0;
     for (uint32_t i = 0; i < faces->count; i++) {
         const knurl_active_face *face = &faces->list[i];
         if (face->obstacle == obstacle && face->press > 0.0) {
-            vec3_madd(sum, face->press, face->normal, sum);
+            vec3_madd(push, face->press, face->normal, push);
             most = !most || face->press > most->press ? face : most;
         }
     }
-    touched->held = most != NULL;
-    if (!most) {
-        return;
-    }
-    vec3_copy(sum, o->candidate->excess);
-    const double depth = vec3_normalise(sum);
-    knurl_pose_to_own(o->pose, m->proxy, own);
-    knurl_shape_rest(&o->surface->shape, &most->hit, own, &touched->state, &touched->contact);
-    knurl_pose_vector_to_own(o->pose, sum, touched->contact.normal);
-    touched->contact.z = depth < longest ? -depth : -longest;
-    touched->contact.unsure = 0;
-    touched->contact.facet = NULL;
-    touched->parts.count = 0;
-    if (o->surface->shape.bulge > 0.0 && depth > 0.0) { /* else the faces cancel each other */
-        for (uint32_t i = 0; i < faces->count; i++) {
-            const knurl_active_face *face = &faces->list[i];
-            if (face->obstacle == obstacle && face->press > 0.0) {
-                double push[3];
-                vec3_scale(face->press * -touched->contact.z / depth, face->hit.normal, push);
-                knurl_felt_add_part(o->surface->shape.geometry, face->hit.triangle, push, face == most,
-                                    &touched->parts);
-            }
+    return most;
+}
+
+/* Adds the parts of a smooth mesh whose faces push to a contact of `depth` (m). summed: m, the length of their sum. */
+static void add_parts(const knurl_joint_search *m, const knurl_active_faces *faces, const knurl_active_face *most,
+                      double depth, double summed, knurl_touched *touched) {
+    const knurl_mesh *mesh = m->near.list[most->obstacle].surface->shape.geometry;
+    for (uint32_t i = 0; i < faces->count; i++) {
+        const knurl_active_face *face = &faces->list[i];
+        if (face->obstacle == most->obstacle && face->press > 0.0) {
+            double push[3];
+            vec3_scale(face->press * depth / summed, face->hit.normal, push);
+            knurl_felt_add_part(mesh, face->hit.triangle, push, face == most, &touched->parts);
         }
     }
 }
 
-/* In a crease of several surfaces under 90 degrees, faces press more than the proxy is away, up to any multiple of it
- * if walls are nearly parallel, and cancel each other. Contacts of such depths would push the HIP sideways as soon
- * as one wall is softer, or begins later. So the depths are limited to the proxy's distance, and the rest
- * (`excess`) is added such that the sum is the distance itself, as if all were one mesh: of equal shares along the
- * proxy's direction and the faces' own pushes, mixed so that no contact pushes by more than the distance. */
-static void share_crease(knurl_joint_search *m, double longest) {
-    double most = 0.0, total = 0.0;
-    for (uint32_t i = 0; i < m->near.count; i++) {
-        const double press = m->touched[i].held ? vec3_length(m->near.list[i].candidate->excess) : 0.0;
-        most = press > most ? press : most;
-        total += press;
+/* Sets an obstacle's contact from its push (scene, m), of which its faces press most at `most`. */
+static void set_contact(const knurl_joint_search *m, const knurl_active_faces *faces, const knurl_active_face *most,
+                        double summed, double push[3], knurl_touched *touched) {
+    const knurl_obstacle *o = &m->near.list[most->obstacle];
+    const double depth = vec3_normalise(push);
+    double own[3];
+    knurl_pose_to_own(o->pose, m->proxy, own);
+    knurl_shape_rest(&o->surface->shape, &most->hit, own, &touched->state, &touched->contact);
+    knurl_pose_vector_to_own(o->pose, depth > 0.0 ? push : most->normal, touched->contact.normal);
+    touched->contact.z = -depth;
+    touched->contact.unsure = 0;
+    touched->contact.facet = NULL;
+    touched->parts.count = 0;
+    if (o->surface->shape.bulge > 0.0 && summed > 0.0) { /* else the faces cancel each other */
+        add_parts(m, faces, most, depth, summed, touched);
     }
-    if (m->pressed < 2 || !(most > longest) || !(longest > 0.0)) {
-        return;
-    }
-    const double mix = (longest / most) * (longest / most);
+}
+
+/* Shares the depth among the obstacles whose faces press, each along its own normal, such that their pushes add up to
+ * it. In a crease under 90 degrees faces press more than the proxy is away, up to any multiple of it if walls are
+ * nearly parallel, and cancel each other. Such pushes would move the HIP sideways as soon as one wall is softer, or
+ * begins later. So each is mixed with an equal share along the depth such that none is longer than that. */
+static void share_depth(knurl_joint_search *m, const knurl_active_faces *faces, double depth) {
+    const knurl_active_face *most[KNURL_ACTIVE_FACES_MAX];
+    double push[KNURL_ACTIVE_FACES_MAX][3], press[KNURL_ACTIVE_FACES_MAX], longest = depth, total = 0.0;
+    uint32_t count = 0;
     for (uint32_t i = 0; i < m->near.count; i++) {
-        double *excess = m->near.list[i].candidate->excess;
-        const double press = m->touched[i].held ? vec3_length(excess) : 0.0;
-        if (press > 0.0) {
-            vec3_scale(mix - knurl_min(1.0, longest / press), excess, excess);
-            vec3_madd(excess, (1.0 - mix) * longest * press / total, m->normal, excess);
-            m->sharp |= (uint64_t)1 << i;
+        double own[3];
+        const knurl_active_face *face = sum_faces(faces, i, own);
+        m->touched[i].held = face != NULL;
+        if (face) {
+            most[count] = face;
+            vec3_copy(own, push[count]);
+            press[count] = vec3_length(own);
+            longest = knurl_max(longest, press[count]);
+            total += press[count++];
         }
     }
+    const double limit = longest > depth ? depth / longest : 1.0;
+    const double mix = count > 1 ? limit * limit : limit;
+    for (uint32_t k = 0; k < count; k++) {
+        vec3_scale(mix, push[k], push[k]);
+        if (count > 1 && mix < 1.0) {
+            vec3_madd(push[k], (1.0 - mix) * depth * press[k] / total, m->normal, push[k]);
+        }
+        set_contact(m, faces, most[k], press[k], push[k], &m->touched[most[k]->obstacle]);
+    }
+    m->pressed += count;
+    m->whole = count > 1 ? depth : 0.0;
 }
 
 /* Turns the god-object's faces into contacts. */
@@ -87,11 +99,7 @@ static void use_god_object(knurl_joint_search *m, knurl_god_object *g) {
     }
     vec3_sub(m->proxy, m->hip, m->normal);
     const double longest = vec3_normalise(m->normal);
-    for (uint32_t i = 0; i < m->near.count; i++) {
-        sum_faces(m, &g->faces, i, longest, &m->touched[i]);
-        m->pressed += (uint32_t)m->touched[i].held;
-    }
-    share_crease(m, longest);
+    share_depth(m, &g->faces, longest);
     vec3_copy(g->at, m->proxy);
     if (g->faces.count > 0 && m->pressed == 0) { /* touching, without depth */
         m->pressed = 2;

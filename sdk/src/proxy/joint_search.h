@@ -19,12 +19,12 @@ typedef struct knurl_joint_search {
     int jumped;       /* 1: a surface in contact has jumped */
     uint32_t queried; /* number of obstacles, from the first, whose query results are in `touched` */
     uint64_t late;    /* bit i: obstacle i's search ran out of visits, so the HIP may have crossed it */
-    uint64_t sharp;   /* bit i: the excess of obstacle i's candidate counts */
     int unknown;      /* 1: the visits ran out before the contacts were found */
     double margin;    /* m: obstacles this far around the path were collected; a proxy may move no farther */
     double proxy[3];  /* results, with `touched` */
     double normal[3];
     uint32_t pressed;
+    double whole; /* m: depth that the pressed shapes share; 0: each has its own */
 } knurl_joint_search;
 
 /* Collects the obstacles within `margin` (m) of a path, and those in contact. */
