@@ -44,6 +44,51 @@ static int quality(const knurl_mesh *mesh, uint32_t triangle) {
     return !(longest >= 1e-18 && share > 1e-12) ? 0 : share < 1e-2 ? 1 : 2;
 }
 
+/* Four triangles within KNURL_COORDINATE_MAX (m), and a point as far from them as one in a scene can be in a surface's
+ * own frame. */
+static void make_largest(uint64_t *seed, float positions[36], double p[3]) {
+    const double most = KNURL_COORDINATE_MAX;
+    const int64_t is_corner = random_integer(seed, 0, 1);
+    for (int i = 0; i < 36; i++) { /* in half of them corners of the cube */
+        const double at = random_between(seed, -most, most);
+        positions[i] = (float)(is_corner ? copysign(most, at) : at);
+    }
+    for (int axis = 0; axis < 3; axis++) {
+        p[axis] = random_between(seed, -2.0, 2.0) * most;
+        p[axis] = random_integer(seed, 0, 1) ? p[axis] : copysign(2.0 * most, p[axis]);
+    }
+}
+
+TEST(the_bound_holds_at_the_largest_coordinates) {
+    float positions[36];
+    uint32_t corners[12];
+    knurl_mesh mesh;
+    uint64_t seed = 10;
+    int tested = 0;
+    memset(&mesh, 0, sizeof mesh);
+    mesh.positions = positions;
+    mesh.triangles = corners;
+    for (uint32_t i = 0; i < 12; i++) {
+        corners[i] = i;
+    }
+    for (int round = 0; round < 50000; round++) {
+        double p[3];
+        knurl_leaf_point from;
+        make_largest(&seed, positions, p);
+        knurl_leaf_point_set(p, &from);
+        const knurl_float4 bound2 = knurl_leaf_bound2(&mesh, 0, 3, &from);
+        for (uint32_t t = 0; t < 4; t++) {
+            knurl_closest_point closest;
+            if (quality(&mesh, t) > 0) {
+                knurl_closest_on_triangle(&mesh, t, p, &closest);
+                assert_false((double)bound2[t] > closest.distance2);
+                tested++;
+            }
+        }
+    }
+    assert_true(tested > 100000);
+}
+
 TEST(the_bound_is_never_above_the_distance_and_seldom_far_below) {
     float positions[36];
     uint32_t corners[12];

@@ -1,10 +1,11 @@
-/* Freeing a large mesh takes milliseconds: other threads' edits and questions do not wait for it.
+/* Freeing a large mesh takes milliseconds, counting its edges longer: other threads' edits and questions do not wait.
  * SPDX-License-Identifier: MIT */
 #include "support/ledger.h"
 
 #include "base/system.h"
 
 #include <pthread.h>
+#include <time.h>
 
 #define LARGE       20000 /* bytes: only arrays of the mesh are larger */
 #define PATIENCE_NS INT64_C(3000000000)
@@ -15,7 +16,7 @@ typedef struct asker {
     knurl_scene *scene;
     knurl_surface_id id;
     pthread_t thread;
-    int is_armed, is_asking; /* on the editing thread */
+    int is_armed, is_asking; /* on the editing thread; `tell` sets the latter atomically */
     int is_answered;         /* atomic */
     int waited;              /* 1: no answer came while the block was being released */
 } asker;
@@ -66,4 +67,41 @@ TEST(no_edit_waits_while_a_removed_mesh_is_freed) {
     assert_int_equal(pthread_join(a.thread, NULL), 0);
     assert_false(a.waited);
     knurl_scene_destroy(a.scene);
+}
+
+/* Tells about a mesh for the first time: most of the time goes into counting its edges. */
+static void *tell(void *argument) {
+    asker *a = argument;
+    knurl_surface_info info;
+    knurl_surface_info_init(&info, sizeof info);
+    __atomic_store_n(&a->is_asking, 1, __ATOMIC_RELEASE);
+    a->waited = knurl_scene_get_surface_info(a->scene, a->id, &info) != KNURL_OK || info.edges < LARGE;
+    __atomic_store_n(&a->is_answered, 1, __ATOMIC_RELEASE);
+    return NULL;
+}
+
+/* Asks once while another thread counts; *waited: the answer came after the count. */
+static int answers_while_counting(int *waited) {
+    static const double half[2] = {0.05, 0.04};
+    static const struct timespec pause = {0, 20000000};
+    SCOPED_SHAPE sheet = shape_sheet(400, 400, half, hills);
+    surface_parts parts = surface_mesh(&sheet);
+    SCOPED_SCENE *scene = scene_of(&parts);
+    asker a = {.scene = scene, .id = knurl_scene_get_surface(scene, 0)};
+    assert_int_equal(pthread_create(&a.thread, NULL, tell, &a), 0);
+    while (!__atomic_load_n(&a.is_asking, __ATOMIC_ACQUIRE)) {}
+    (void)nanosleep(&pause, NULL); /* the count takes some 0.2 s */
+    assert_int_equal(knurl_scene_has_surface(scene, a.id), 1);
+    (void)nanosleep(&pause, NULL);
+    *waited = __atomic_load_n(&a.is_answered, __ATOMIC_ACQUIRE);
+    assert_int_equal(pthread_join(a.thread, NULL), 0);
+    return !a.waited;
+}
+
+TEST(edits_do_not_wait_while_the_edges_of_a_mesh_are_counted) {
+    int waited = 1;
+    for (int i = 0; i < 5 && waited; i++) { /* a busy machine may give the count all the time first */
+        assert_true(answers_while_counting(&waited));
+    }
+    assert_false(waited);
 }

@@ -68,7 +68,7 @@ typedef struct knurl_mesh {
     double uneven;             /* share of the area in which ridges are more than an octave off, or without uvs */
     double stretch[2][3]; /* min, mean, max over area of su / |dP/du|, and of sv / |dP/dv|; with an axis, of the length
                              of its tangential part, and 1; 1 without both */
-    knurl_mesh_facets facets; /* counted on demand */
+    knurl_mesh_facets facets; /* no edges: not counted yet. Guarded by the scene's lock */
     uint32_t other_users;     /* atomic: shapes that share it, not counting the first */
 } knurl_mesh;
 

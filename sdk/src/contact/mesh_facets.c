@@ -5,6 +5,8 @@
 #include "contact/corner.h"
 #include "contact/mesh_normals.h"
 
+#include <string.h>
+
 /* rad, between unit vectors. */
 static double angle_of(const double a[3], const double b[3]) {
     double across[3];
@@ -49,11 +51,10 @@ static void add_edge(const knurl_mesh *mesh, uint32_t corner, uint32_t across, k
     *length += own;
 }
 
-const knurl_mesh_facets *knurl_mesh_get_facets(knurl_mesh *mesh) {
-    knurl_mesh_facets *f = &mesh->facets;
-    const uint32_t count = f->edges == 0 ? mesh->triangle_count : 0;
+void knurl_mesh_count_facets(const knurl_mesh *mesh, knurl_mesh_facets *f) {
     double length = 0.0;
-    for (uint32_t t = 0; t < count; t++) {
+    memset(f, 0, sizeof *f);
+    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
         for (uint32_t k = 0; k < 3; k++) {
             const uint32_t corner = 4 * t + k, across = mesh->opposite[corner_slot(corner)];
             const uint32_t apex = across & KNURL_CORNER_MASK;
@@ -66,5 +67,4 @@ const knurl_mesh_facets *knurl_mesh_get_facets(knurl_mesh *mesh) {
         f->facet_angle[0] /= length;
         f->felt_angle[0] /= length;
     }
-    return f;
 }

@@ -4,7 +4,7 @@
 
 #include "contact/mesh.h"
 
-/* Counts at the first call, for reports: a build does without. [one thread at a time for each mesh] */
-const knurl_mesh_facets *knurl_mesh_get_facets(knurl_mesh *mesh);
+/* Counts the edges, for reports: a build does without. A million triangles take most of a second. */
+void knurl_mesh_count_facets(const knurl_mesh *mesh, knurl_mesh_facets *facets);
 
 #endif

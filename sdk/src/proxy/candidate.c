@@ -59,12 +59,9 @@ int knurl_candidate_is_swept_near(knurl_candidate *candidate, const knurl_surfac
     const double wide = margin + surface->shape.seam;
     const int was_seen = candidate->swept_tick + 1 == clock->tick;
     int near = !was_seen || is_near(candidate->swept, path, wide); /* last tick's box */
-    if (!was_seen || candidate->swept_of != record || candidate->swept_start != record->motion.start_time ||
-        candidate->swept_reach != record->reach) {
+    if (!was_seen || candidate->swept_edits != record->edits) {
         memcpy(candidate->swept, knurl_record_box(record, clock->previous_time), sizeof candidate->swept);
-        candidate->swept_of = record;
-        candidate->swept_start = record->motion.start_time;
-        candidate->swept_reach = record->reach;
+        candidate->swept_edits = record->edits;
         near = near || is_near(candidate->swept, path, wide);
     }
     candidate->swept_tick = clock->tick;

@@ -35,12 +35,11 @@ typedef struct knurl_candidate {
     double anchor[3];   /* friction: the point where the HIP sticks, shape's frame */
     knurl_projection_carry carry; /* of projected coordinates */
     float box[6];                 /* scene axes; there is no contact outside it */
-    float swept[6];               /* scene axes: swept by the motion of `swept_of`, with crests, without margin */
-    const knurl_record *swept_of; /* or null; start and reach detect reuse of its address */
-    double swept_start, swept_reach;
-    uint64_t swept_tick; /* tick in which `swept` was last tested */
-    knurl_pose poses[2]; /* of the shape's frame, scene: this tick's and the last one's, as seen then */
-    knurl_part part;     /* valid while has_previous and `jumps` are */
+    float swept[6];               /* scene axes: swept by the motion of a record, with crests, without margin */
+    uint64_t swept_edits;         /* that record's `edits` */
+    uint64_t swept_tick;          /* tick in which `swept` was last tested */
+    knurl_pose poses[2];          /* of the shape's frame, scene: this tick's and the last one's, as seen then */
+    knurl_part part;              /* valid while has_previous and `jumps` are */
     knurl_facet facet;
 } knurl_candidate;
 

@@ -41,6 +41,7 @@ static knurl_result replace(knurl_scene *scene, knurl_surface_id surface, knurl_
         return KNURL_ERROR_STALE_ID;
     }
     made->record->motion.jumps = old->record->motion.jumps + 1;
+    made->record->edits = old->record->edits + 1;
     made->moved = 1;
     knurl_surfaces_replace(&scene->surfaces, old, made);
     knurl_broad_phase_replace(&scene->broad_phase, old, made);

@@ -43,6 +43,13 @@ static void describe_anchor(const knurl_surface_data *surface, const knurl_pose 
     }
 }
 
+static void describe_facets(const knurl_mesh_facets *facets, knurl_surface_info *info) {
+    info->edges = facets->edges;
+    info->hard_edges = facets->hard_edges;
+    memcpy(info->facet_angle, facets->facet_angle, sizeof info->facet_angle);
+    memcpy(info->felt_angle, facets->felt_angle, sizeof info->felt_angle);
+}
+
 static void describe_model(const knurl_surface_data *surface, knurl_surface_info *info) {
     knurl_shape_facts facts;
     knurl_shape_get_facts(&surface->shape, &facts);
@@ -64,11 +71,8 @@ static void describe_model(const knurl_surface_data *surface, knurl_surface_info
     info->projection_seams = facts.projection_seams;
     info->smooth = surface->shape.smooth;
     if (!surface->shape.plane) {
-        const knurl_mesh_facets *facets = knurl_mesh_get_facets(surface->shape.geometry);
-        info->edges = facets->edges;
-        info->hard_edges = facets->hard_edges;
-        memcpy(info->facet_angle, facets->facet_angle, sizeof info->facet_angle);
-        memcpy(info->felt_angle, facets->felt_angle, sizeof info->felt_angle);
+        const knurl_mesh *mesh = surface->shape.geometry;
+        describe_facets(&mesh->facets, info);
     }
     info->double_sided = (uint32_t)surface->double_sided;
     info->bytes = knurl_heap_size(surface) + knurl_heap_size(surface->record) + knurl_heap_size(surface->name) +
@@ -90,6 +94,19 @@ static void describe(const knurl_scene *scene, const knurl_surface_data *surface
     describe_anchor(surface, &pose, info);
 }
 
+/* Counts the edges of a mesh for the first time, without the scene's lock: edits do not wait. shape: shared, so that
+ * the mesh outlives its surface; released here. */
+static void count_facets(const knurl_scene *scene, const knurl_shape *shape, knurl_surface_info *info) {
+    knurl_mesh *mesh = shape->geometry;
+    knurl_mesh_facets facets;
+    knurl_mesh_count_facets(mesh, &facets);
+    describe_facets(&facets, info);
+    knurl_scene_lock(scene);
+    mesh->facets = facets;
+    knurl_scene_unlock(scene);
+    knurl_shape_destroy(scene->surfaces.heap, shape);
+}
+
 knurl_result knurl_scene_get_surface_info(const knurl_scene *scene, knurl_surface_id surface,
                                           knurl_surface_info *info) {
     if (KNURL_IS_NULL(info)) {
@@ -102,7 +119,12 @@ knurl_result knurl_scene_get_surface_info(const knurl_scene *scene, knurl_surfac
         return result;
     }
     describe(scene, data, &made);
+    const int is_counted = data->shape.plane || made.edges > 0;
+    const knurl_shape shape = is_counted ? data->shape : knurl_shape_share(&data->shape);
     knurl_scene_unlock(scene);
+    if (!is_counted) {
+        count_facets(scene, &shape, &made);
+    }
     return knurl_desc_return("knurl_surface_info", &made, sizeof made, info);
 }
 

@@ -78,6 +78,7 @@ knurl_record *knurl_record_copy(knurl_heap *heap, const knurl_record *record) {
     if (made) {
         if (record) {
             *made = *record;
+            made->edits++;
         }
         made->retired.next = NULL;
         made->retired.release = release;
