@@ -43,7 +43,8 @@ struct view {
     lws_sorted_usec_list_t timer;
     lws_usec_t due; /* expiry of the timer */
     pthread_t thread;
-    int stop; /* atomic */
+    int stop;        /* atomic */
+    char page[4096]; /* the desc's, copied */
     char token[TOKEN + 1], url[96], hosts[2][32], security[640];
     struct lws *strangers[STRANGERS]; /* the oldest first */
     int stranger_count;
@@ -398,6 +399,8 @@ int view_open(const view_desc *desc, view **opened) {
         return tool_error(TOOL_FAILURE, "run: --view: no memory");
     }
     v->desc = *desc;
+    (void)snprintf(v->page, sizeof v->page, "%s", desc->page);
+    v->desc.page = v->page;
     v->surface_count = knurl_scene_get_surface_count(desc->scene);
     v->surfaces = calloc(v->surface_count + 1, sizeof *v->surfaces);
     if (!v->surfaces || tick_ring_create(&v->ring) || make_hello(v) || listen_on_loopback(v)) {

@@ -19,7 +19,8 @@ typedef struct view_desc {
     double rate;        /* ticks per second */
 } view_desc;
 
-/* Starts a thread that serves. Data that the desc points to must stay valid until view_close(). TOOL_OK, or
+/* Starts a thread that serves. The desc's scene and file must stay valid until view_close(), its page and device need
+ * not. TOOL_OK, or
  * TOOL_FAILURE after printing the reason. */
 int view_open(const view_desc *desc, view **opened);
 

@@ -40,8 +40,11 @@ static void serve_page(const char *page) {
     write_text(tool_path("scene.glb"), "the scene");
     static char file[1024];
     (void)snprintf(file, sizeof file, "%s", tool_path("scene.glb"));
-    const view_desc desc = {scene, file, page, "a device", 1000.0};
+    char folder[1024]; /* the caller's, who may reuse it */
+    (void)snprintf(folder, sizeof folder, "%s", page);
+    const view_desc desc = {scene, file, folder, "a device", 1000.0};
     assert_int_equal(view_open(&desc, &served), 0);
+    memset(folder, 'x', sizeof folder - 1);
     assert_memory_equal(view_url(served), "http://127.0.0.1:", 17);
     char *rest = NULL;
     port = (int)strtol(view_url(served) + 17, &rest, 10);
