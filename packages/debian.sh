@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# Builds the Debian packages (libknurlMAJOR.MINOR, libknurl-dev, knurl, and their debug symbols) from the source archive, and
+# checks them with lintian, if that is installed.
+# usage: debian.sh OUT SOURCE.tar.gz FOLDER     FOLDER: to build in. Environment: SOURCE_DATE_EPOCH; DEBFULLNAME and DEBEMAIL:
+# the maintainer
+set -euo pipefail
+[ $# -eq 3 ] || { echo "usage: debian.sh OUT SOURCE.tar.gz FOLDER" >&2; exit 2; }
+here=$(cd "$(dirname "$0")" && pwd)
+out=$(cd "$1" && pwd)
+source=$(basename "$2" .tar.gz)
+version=${source#knurl-}
+minor=${version%.*}
+maintainer="${DEBFULLNAME:-The Knurl authors} <${DEBEMAIL:-root@localhost}>"
+
+rm -rf "$3"
+mkdir -p "$3"
+tar -C "$3" -xf "$2"
+cd "$3/$source"
+cp -r "$here/debian" debian
+for file in debian/libknurl.*; do
+    mv "$file" "debian/libknurl$minor.${file#*.}"
+done
+sed "s/@MINOR@/$minor/; s/@MAINTAINER@/$maintainer/" debian/control.in >debian/control
+rm debian/control.in
+printf 'knurl (%s-1) unstable; urgency=medium\n\n  * See changelog.gz.\n\n -- %s  %s\n' "$version" "$maintainer" \
+    "$(date -u -R -d "@$SOURCE_DATE_EPOCH")" >debian/changelog
+if [ -d "$here/../build/mirror-venv" ]; then # libclang, for api.json
+    mkdir -p build
+    ln -s "$(cd "$here/../build/mirror-venv" && pwd)" build/mirror-venv
+fi
+dpkg-buildpackage -b -us -uc -d
+cd ..
+if command -v lintian >/dev/null; then
+    lintian --fail-on error,warning --suppress-tags bogus-mail-host,initial-upload-closes-no-bugs -- *.changes
+else
+    echo 'debian: lintian is not installed: the packages were not checked'
+fi
+mv -- *.deb "$out/"
