@@ -95,11 +95,12 @@ web() {
 }
 
 docs() {
-    need_packages doxygen python3
+    need_packages python3-venv
+    need_python docs-venv docs/site/requirements.txt
     /usr/bin/python3 -B tests/docs/check.py
     rm -rf build/docs
-    mkdir -p build/docs
-    doxygen docs/Doxyfile
+    build/docs-venv/bin/python -B docs/site/pages.py build/docs/pages
+    PYTHONDONTWRITEBYTECODE=1 build/docs-venv/bin/sphinx-build -q -W --keep-going -j auto -c docs/site -d build/docs/work build/docs/pages build/docs/html
     /usr/bin/python3 -B tests/docs/site.py build/docs/html
     echo 'run: the site is build/docs/html/index.html'
 }
