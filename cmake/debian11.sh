@@ -7,7 +7,7 @@ set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 [ $# -eq 1 ] || { echo "usage: debian11.sh DIR" >&2; exit 2; }
 EXIT_SETUP=3
-PACKAGES=(libc6-dev gcc-10 g++-10 libstdc++-10-dev libcmocka-dev)
+PACKAGES=(libc6-dev gcc-10 g++-10 libstdc++-10-dev libcmocka-dev libkissfft-dev)
 HEADERS=(libtinygltf-dev nlohmann-json3-dev libglm-dev libusb-1.0-0-dev libhidapi-dev)
 STAMP="2 ${PACKAGES[*]} ${HEADERS[*]}"
 

@@ -1,21 +1,20 @@
 #!/usr/bin/env bash
 # Builds the Debian packages (libknurlMAJOR.MINOR, libknurl-dev, knurl, and their debug symbols) from the source archive, and
 # checks them with lintian, if that is installed.
-# usage: debian.sh OUT SOURCE.tar.gz FOLDER     FOLDER: to build in. Environment: SOURCE_DATE_EPOCH; DEBFULLNAME and DEBEMAIL:
-# the maintainer
+# usage: debian.sh OUT SOURCE.tar.gz VERSION FOLDER     FOLDER: to build in. Environment: SOURCE_DATE_EPOCH; DEBFULLNAME and
+# DEBEMAIL: the maintainer
 set -euo pipefail
-[ $# -eq 3 ] || { echo "usage: debian.sh OUT SOURCE.tar.gz FOLDER" >&2; exit 2; }
+[ $# -eq 4 ] || { echo "usage: debian.sh OUT SOURCE.tar.gz VERSION FOLDER" >&2; exit 2; }
 here=$(cd "$(dirname "$0")" && pwd)
 out=$(cd "$1" && pwd)
-source=$(basename "$2" .tar.gz)
-version=${source#knurl-}
+version=$3
 minor=${version%.*}
 maintainer="${DEBFULLNAME:-The Knurl authors} <${DEBEMAIL:-root@localhost}>"
 
-rm -rf "$3"
-mkdir -p "$3"
-tar -C "$3" -xf "$2"
-cd "$3/$source"
+rm -rf "$4"
+mkdir -p "$4"
+tar -C "$4" -xf "$2"
+cd "$4/knurl-$version"
 cp -r "$here/debian" debian
 for file in debian/libknurl.*; do
     mv "$file" "debian/libknurl$minor.${file#*.}"

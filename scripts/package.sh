@@ -153,39 +153,69 @@ date_sources() {
     export SOURCE_DATE_EPOCH
 }
 
+# Builds the archive for Linux, and its wheel, with one toolchain. usage: release_linux OUT VERSION ARCH TOOLCHAIN_OPTION...
+release_linux() {
+    local out=$1 name=knurl-$2-linux-$3 arch=$3 log=build/package.log options
+    shift 3
+    options=(-DCMAKE_BUILD_TYPE=Release -DCMAKE_C_FLAGS_RELEASE='-O3 -g1' -DCMAKE_CXX_FLAGS_RELEASE='-O2 -g1' -DBUILD_SHARED_LIBS=ON
+        -DBUILD_TESTING=OFF -DKNURL_VIEW=OFF -DCMAKE_INSTALL_LIBDIR=lib -DCMAKE_BUILD_RPATH_USE_ORIGIN=ON
+        -DCMAKE_SKIP_INSTALL_ALL_DEPENDENCY=ON "-DCMAKE_SHARED_LINKER_FLAGS=-Wl,--build-id" "-DCMAKE_EXE_LINKER_FLAGS=-Wl,--build-id")
+    CFLAGS="-ffile-prefix-map=$PWD=." CXXFLAGS="-ffile-prefix-map=$PWD=." \
+        cmake -G Ninja -S . -B "build/linux-$arch-shared" "${options[@]}" "$@" >"$log" 2>&1 &&
+        with_progress "building what is packed for $arch" "$log" cmake --build "build/linux-$arch-shared" &&
+        packages/linux.sh "$out" "$name" "build/linux-$arch-shared" build/release/knurl build/docs/html >>"$log" 2>&1 &&
+        KNURL_BUILD_FOLDER=$PWD/build/wheel-$arch _PYTHON_HOST_PLATFORM=linux-$arch CMAKE_GENERATOR=Ninja CMAKE_ARGS="$*" \
+            with_progress "building the wheel for $arch" "$log" /usr/bin/python3 -m pip wheel --no-build-isolation --no-deps \
+            --no-index --wheel-dir "$out" build/python-source || { tail -n 20 "$log" >&2; exit 1; }
+}
+
 # usage: release [check]
 release() {
     case ${1:-} in
     '' | check) ;;
     *) echo "run: release: expected check or nothing, found '$1'" >&2; exit 2 ;;
     esac
-    need_packages "${BUILD_PACKAGES[@]}" "${PYTHON_PACKAGES[@]}" dpkg-dev
+    need_packages "${BUILD_PACKAGES[@]}" "${PYTHON_PACKAGES[@]}" debhelper lintian
     need_python mirror-venv bindings/unity/native/requirements.txt # for api.json
-    local version out log=build/package.log tried
+    local version out log=build/package.log name source
     version=$(sed -n 's/^#define KNURL_VERSION_[A-Z]* \([0-9]*\)$/\1/p' sdk/include/knurl/base.h | paste -sd .)
     out=$PWD/build/release-$version
+    name=knurl-$version
     date_sources
     rm -rf "$out"
     mkdir -p "$out"
-    cmake -G Ninja -S . -B build/package -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=ON -DBUILD_TESTING=OFF \
-        -DKNURL_VIEW=OFF -DCMAKE_INSTALL_PREFIX=/usr -DCMAKE_BUILD_RPATH_USE_ORIGIN=ON -DCMAKE_SKIP_INSTALL_ALL_DEPENDENCY=ON >"$log" 2>&1 || { cat "$log" >&2; exit 1; }
-    echo 'run: building what is packed'
-    with_progress 'building what is packed' "$log" cmake --build build/package &&
-        with_progress packing "$log" cpack --config build/package/CPackConfig.cmake -B "$out" &&
-        with_progress 'building the wheel' "$log" /usr/bin/python3 -m pip wheel --no-build-isolation --no-deps \
-            --no-index --wheel-dir "$out" ./bindings/python || { tail -n 20 "$log" >&2; exit 1; }
-    rm -rf "$out/_CPack_Packages"
-    tried=$(mktemp -d)
-    tar -C "$tried" --strip-components=1 -xf "$out"/knurl-*.tar.gz
-    "$tried/bin/knurl" run assets/plate_1d.glb --fast --seconds 1 >/dev/null
-    rm -rf "$tried"
+    docs
+    build release knurl_tool
+    source=$out/$name-source.tar.gz
+    git archive --prefix="$name/" HEAD | gzip -9 -n >"$source"
+    with_progress 'building Debian packages' "$log" packages/debian.sh "$out" "$source" "$version" build/debian || { tail -n 20 "$log" >&2; exit 1; }
+    rm -rf build/python-source # the Python package's own source archive, from which its wheels are built
+    (cd "build/debian/$name/bindings/python" && /usr/bin/python3 setup.py -q sdist --dist-dir "$out") >"$log" 2>&1 &&
+        mkdir build/python-source && tar -C build/python-source --strip-components=1 -xf "$out/$name.tar.gz" || { tail -n 20 "$log" >&2; exit 1; }
+    if prepare_debian11; then
+        release_linux "$out" "$version" x86_64 "-DCMAKE_TOOLCHAIN_FILE=$PWD/cmake/debian11.cmake"
+    else
+        echo "run: SKIPPED: the archive and the wheel for glibc 2.31 (see above): they are built for this machine's" >&2
+        release_linux "$out" "$version" "$(uname -m)"
+    fi
+    if prepare_zig; then
+        release_linux "$out" "$version" aarch64 "-DCMAKE_TOOLCHAIN_FILE=$PWD/cmake/zig.cmake" -DKNURL_ZIG_TARGET=aarch64-linux-gnu.2.31
+    else
+        echo "run: SKIPPED: the archive and the wheel for arm64, see above" >&2
+    fi
     package_godot
     package_unity
     package_windows
     mv "build/knurl-godot-$version.zip" "build/knurl-godot-demo-$version.zip" build/com.knurl.haptics-"$version".tgz "$out/"
     [ ! -f "build/knurl-$version-windows-x86_64.zip" ] || mv "build/knurl-$version-windows-x86_64.zip" "$out/"
     bindings/blender/package.sh "$out/knurl-blender-$version.zip"
+    packages/sbom.py "$out" "$version" "$out/$name.spdx.json"
     (cd "$out" && sha256sum -- * >SHA256SUMS)
+    if [ -n "${KNURL_SIGNING_KEY:-}" ]; then
+        gpg --batch --local-user "$KNURL_SIGNING_KEY" --armor --detach-sign --output "$out/SHA256SUMS.asc" "$out/SHA256SUMS"
+    else
+        echo 'run: not signed: KNURL_SIGNING_KEY names no key of gpg'
+    fi
     echo "run: in $out:"
     ls "$out"
     [ "${1:-}" != check ] || check_release "$out"

@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# Packs what a build with shared libraries installs, as an archive that runs where it is unpacked: tool, libraries, headers,
+# man page and completions, demo scenes, samples, the site; and its debug information, by build ID, in a second archive if
+# there is any.
+# usage: linux.sh OUT NAME BUILD KNURL SITE     Writes OUT/NAME.tar.gz and OUT/NAME-debug.tar.gz. KNURL: a tool that runs here;
+# SITE: made by ./run docs. Environment: SOURCE_DATE_EPOCH
+set -euo pipefail
+[ $# -eq 5 ] || { echo "usage: linux.sh OUT NAME BUILD KNURL SITE" >&2; exit 2; }
+root=$(cd "$(dirname "$0")/.." && pwd)
+out=$1 name=$2 build=$3 knurl=$4 site=$5
+stage=$(mktemp -d)
+trap 'rm -rf "$stage"' EXIT
+home=$stage/$name
+
+cmake --install "$build" --prefix "$home" >/dev/null
+share=$home/share
+mkdir -p "$share"/{man/man1,bash-completion/completions,fish/vendor_completions.d,zsh/site-functions} "$home"/{assets,samples}
+"$knurl" man >"$share/man/man1/knurl.1"
+"$knurl" completion bash >"$share/bash-completion/completions/knurl"
+"$knurl" completion fish >"$share/fish/vendor_completions.d/knurl.fish"
+"$knurl" completion zsh >"$share/zsh/site-functions/_knurl"
+cp "$root"/assets/*.glb "$home/assets/"
+cp "$root"/samples/{hello_grating.c,touch_grating.c,feel_scene.c,draw_run.py} "$home/samples/"
+cp -r "$site" "$share/doc/knurl/html"
+
+# knurl_study's Fourier transform, which few systems have (BSD licence)
+fourier=$(sed -n 's/^pkgcfg_lib_KISSFFT_[^=]*=//p' "$build/CMakeCache.txt")
+if [ -n "$fourier" ]; then
+    cp -L "$fourier" "$home/lib/$(readelf -d "$fourier" | sed -n 's/.*SONAME.*\[\(.*\)\]/\1/p')"
+    cp /usr/share/doc/libkissfft-dev/copyright "$share/doc/knurl/kissfft.txt"
+fi
+for file in "$home"/bin/* "$home"/lib/*.so.*; do
+    [ ! -L "$file" ] || continue
+    id=$(readelf -n "$file" | sed -n 's/.*Build ID: //p')
+    if [ -n "$id" ] && readelf -S "$file" | grep -q '\.debug_info'; then
+        debug=$stage/$name-debug/lib/debug/.build-id/${id:0:2}
+        mkdir -p "$debug"
+        objcopy --only-keep-debug "$file" "$debug/${id:2}.debug"
+        strip --strip-unneeded "$file"
+    fi
+done
+for folder in "$name" "$name-debug"; do
+    [ ! -d "$stage/$folder" ] || tar -C "$stage" --sort=name --mtime="@$SOURCE_DATE_EPOCH" --owner=0 --group=0 --numeric-owner \
+        --mode=u+rw,go+r-w -c "$folder" | gzip -9 -n >"$out/$folder.tar.gz"
+done
