@@ -24,7 +24,7 @@ cp "$root"/samples/{hello_grating.c,touch_grating.c,feel_scene.c,draw_run.py} "$
 cp -r "$site" "$share/doc/knurl/html"
 
 # knurl_study's Fourier transform, which few systems have (BSD licence)
-fourier=$(sed -n 's/^pkgcfg_lib_KISSFFT_[^=]*=//p' "$build/CMakeCache.txt")
+fourier=$(sed -n 's/^pkgcfg_lib_KISSFFT_kissfft-float:[^=]*=//p' "$build/CMakeCache.txt")
 if [ -n "$fourier" ]; then
     cp -L "$fourier" "$home/lib/$(readelf -d "$fourier" | sed -n 's/.*SONAME.*\[\(.*\)\]/\1/p')"
     cp /usr/share/doc/libkissfft-dev/copyright "$share/doc/knurl/kissfft.txt"

@@ -101,7 +101,7 @@ def read():
             api["structs"][cursor.spelling] = struct(cursor, own)
         elif cursor.kind == CursorKind.STRUCT_DECL:
             api["opaque"].append(cursor.spelling)
-        elif cursor.kind == CursorKind.TYPEDEF_DECL and cursor.underlying_typedef_type.kind != TypeKind.ELABORATED:
+        elif cursor.kind == CursorKind.TYPEDEF_DECL and cursor.underlying_typedef_type.get_canonical().kind != TypeKind.RECORD:
             api["types"][cursor.spelling] = {"type": spell(cursor.underlying_typedef_type), "doc": own}
         elif cursor.kind == CursorKind.FUNCTION_DECL:
             doc = own or (doc if cursor.extent.start.line == last_line + 1 else "")  # one docstring for several lines
