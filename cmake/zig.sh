@@ -7,15 +7,16 @@ set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 mkdir -p "$1"
 dir=$(cd "$1" && pwd)
-cmp -s "$here/zig-requirements.txt" "$dir/requirements.txt" && exit 0
+stamp=$(cat "$here/zig-requirements.txt" "${BASH_SOURCE[0]}")
+[ "$(cat "$dir/stamp" 2>/dev/null)" != "$stamp" ] || exit 0
 
-python3 -m venv "$dir/venv"
+python3 -m venv --clear "$dir/venv"
 "$dir/venv/bin/pip" install -q --disable-pip-version-check --require-hashes -r "$here/zig-requirements.txt" || exit 3
 mkdir -p "$dir/bin" "$dir/prefix/include" "$dir/prefix/share/cmake" "$dir/prefix/lib/pkgconfig"
 for tool in ar ranlib; do
     printf '#!/bin/sh\nexec "%s" -m ziglang %s "$@"\n' "$dir/venv/bin/python" $tool >"$dir/bin/$tool"
 done
-for target in aarch64-macos.11.0 x86_64-macos.11.0 aarch64-linux-gnu.2.31; do
+for target in aarch64-macos.11.0 x86_64-macos.11.0 aarch64-linux-gnu.2.31 aarch64-linux-gnu.2.28 x86_64-linux-gnu.2.28; do
     for tool in cc c++; do
         printf '#!/bin/sh\nexec "%s" -m ziglang %s -target %s "$@"\n' "$dir/venv/bin/python" $tool $target \
             >"$dir/bin/$target-$tool"
@@ -33,4 +34,4 @@ for name in libusb-1.0 hidapi-hidraw; do # the libraries themselves are loaded a
         "$dir/prefix/include/${name%-hidraw}" >"$dir/prefix/lib/pkgconfig/$name.pc"
 done
 sed 's/^Name: .*/Name: hidapi/' "$dir/prefix/lib/pkgconfig/hidapi-hidraw.pc" >"$dir/prefix/lib/pkgconfig/hidapi.pc"
-cp "$here/zig-requirements.txt" "$dir/requirements.txt"
+echo "$stamp" >"$dir/stamp"

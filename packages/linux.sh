@@ -32,7 +32,8 @@ fi
 for file in "$home"/bin/* "$home"/lib/*.so.*; do
     [ ! -L "$file" ] || continue
     id=$(readelf -n "$file" | sed -n 's/.*Build ID: //p')
-    if [ -n "$id" ] && readelf -S "$file" | grep -q '\.debug_info'; then
+    sections=$(readelf -SW "$file")
+    if [ -n "$id" ] && [[ $sections == *.debug_info* ]]; then
         debug=$stage/$name-debug/lib/debug/.build-id/${id:0:2}
         mkdir -p "$debug"
         objcopy --only-keep-debug "$file" "$debug/${id:2}.debug"

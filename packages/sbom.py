@@ -18,7 +18,7 @@ BESIDE = [("KissFFT", "BSD-3-Clause"), ("libusb", "LGPL-2.1-or-later"), ("hidapi
 
 
 def package(name, version, licence, copyright_text):
-    return {"SPDXID": "SPDXRef-" + re.sub(r"[^\w.-]", "-", name), "name": name, "versionInfo": version or "NOASSERTION",
+    return {"SPDXID": "SPDXRef-" + re.sub(r"[^A-Za-z0-9.-]", "-", name), "name": name, "versionInfo": version or "NOASSERTION",
             "downloadLocation": "NOASSERTION", "filesAnalyzed": False, "licenseConcluded": licence, "licenseDeclared": licence,
             "copyrightText": copyright_text}
 
@@ -35,7 +35,7 @@ def contained():
 
 def file(path):
     data = path.read_bytes()
-    return {"SPDXID": "SPDXRef-File-" + re.sub(r"[^\w.-]", "-", path.name), "fileName": "./" + path.name,
+    return {"SPDXID": "SPDXRef-File-" + re.sub(r"[^A-Za-z0-9.-]", "-", path.name), "fileName": "./" + path.name,
             "checksums": [{"algorithm": name.upper(), "checksumValue": hashlib.new(name, data).hexdigest()}
                           for name in ("sha1", "sha256")],
             "licenseConcluded": "NOASSERTION", "copyrightText": "NOASSERTION"}

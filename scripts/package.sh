@@ -153,20 +153,48 @@ date_sources() {
     export SOURCE_DATE_EPOCH
 }
 
-# Builds the archive for Linux, and its wheel, with one toolchain. usage: release_linux OUT VERSION ARCH TOOLCHAIN_OPTION...
-release_linux() {
-    local out=$1 name=knurl-$2-linux-$3 arch=$3 log=build/package.log options
+# Builds the archive for Linux. usage: release_archive OUT VERSION ARCH [OPTION...]: CMake's, for the toolchain
+release_archive() {
+    local out=$1 name=knurl-$2-linux-$3 folder=build/archive-$3 log=build/package.log
+    local link=-DCMAKE_SHARED_LINKER_FLAGS=-Wl,--build-id
     shift 3
-    options=(-DCMAKE_BUILD_TYPE=Release -DCMAKE_C_FLAGS_RELEASE='-O3 -g1' -DCMAKE_CXX_FLAGS_RELEASE='-O2 -g1' -DBUILD_SHARED_LIBS=ON
-        -DBUILD_TESTING=OFF -DKNURL_VIEW=OFF -DCMAKE_INSTALL_LIBDIR=lib -DCMAKE_BUILD_RPATH_USE_ORIGIN=ON
-        -DCMAKE_SKIP_INSTALL_ALL_DEPENDENCY=ON "-DCMAKE_SHARED_LINKER_FLAGS=-Wl,--build-id" "-DCMAKE_EXE_LINKER_FLAGS=-Wl,--build-id")
     CFLAGS="-ffile-prefix-map=$PWD=." CXXFLAGS="-ffile-prefix-map=$PWD=." \
-        cmake -G Ninja -S . -B "build/linux-$arch-shared" "${options[@]}" "$@" >"$log" 2>&1 &&
-        with_progress "building what is packed for $arch" "$log" cmake --build "build/linux-$arch-shared" &&
-        packages/linux.sh "$out" "$name" "build/linux-$arch-shared" build/release/knurl build/docs/html >>"$log" 2>&1 &&
-        KNURL_BUILD_FOLDER=$PWD/build/wheel-$arch _PYTHON_HOST_PLATFORM=linux-$arch CMAKE_GENERATOR=Ninja CMAKE_ARGS="$*" \
-            with_progress "building the wheel for $arch" "$log" /usr/bin/python3 -m pip wheel --no-build-isolation --no-deps \
-            --no-index --wheel-dir "$out" build/python-source || { tail -n 20 "$log" >&2; exit 1; }
+        cmake -G Ninja -S . -B "$folder" -DCMAKE_BUILD_TYPE=Release -DCMAKE_C_FLAGS_RELEASE='-O3 -g1' \
+        -DCMAKE_CXX_FLAGS_RELEASE='-O2 -g1' -DBUILD_SHARED_LIBS=ON -DBUILD_TESTING=OFF -DKNURL_VIEW=OFF \
+        -DCMAKE_INSTALL_LIBDIR=lib -DCMAKE_BUILD_RPATH_USE_ORIGIN=ON "$link" "${link/SHARED/EXE}" "$@" >"$log" 2>&1 &&
+        with_progress "building $name" "$log" cmake --build "$folder" &&
+        packages/linux.sh "$out" "$name" "$folder" build/release/knurl build/docs/html >>"$log" 2>&1 ||
+        { tail -n 20 "$log" >&2; exit 1; }
+}
+
+# Builds the wheel, from build/python-source. usage: release_wheel OUT ARCH [OPTION...]: as above
+release_wheel() {
+    local out=$1 arch=$2 log=build/package.log
+    shift 2
+    KNURL_BUILD_FOLDER=$PWD/build/wheel-$arch _PYTHON_HOST_PLATFORM=linux-$arch CMAKE_GENERATOR=Ninja CMAKE_ARGS="$*" \
+        with_progress "building the wheel for $arch" "$log" /usr/bin/python3 -m pip wheel --no-build-isolation --no-deps \
+        --no-index --wheel-dir "$out" build/python-source || { tail -n 20 "$log" >&2; exit 1; }
+}
+
+# Both for this processor and for arm64, with compilers that old systems' C libraries are enough for, if they can be had.
+# usage: release_linux OUT VERSION
+release_linux() {
+    local arch zig="-DCMAKE_TOOLCHAIN_FILE=$PWD/cmake/zig.cmake"
+    if prepare_debian11; then
+        release_archive "$1" "$2" x86_64 "-DCMAKE_TOOLCHAIN_FILE=$PWD/cmake/debian11.cmake"
+    else
+        echo "run: SKIPPED: the archive for glibc 2.31 (see above): it is built for this machine's" >&2
+        release_archive "$1" "$2" "$(uname -m)"
+    fi
+    if prepare_zig; then
+        release_archive "$1" "$2" aarch64 "$zig" -DKNURL_ZIG_TARGET=aarch64-linux-gnu.2.28
+        for arch in x86_64 aarch64; do
+            release_wheel "$1" $arch "$zig" "-DKNURL_ZIG_TARGET=$arch-linux-gnu.2.28"
+        done
+    else
+        echo "run: SKIPPED: archive and wheel for arm64, and for glibc 2.28 (see above): one wheel is built for this machine's" >&2
+        release_wheel "$1" "$(uname -m)"
+    fi
 }
 
 # usage: release [check]
@@ -192,17 +220,7 @@ release() {
     rm -rf build/python-source # the Python package's own source archive, from which its wheels are built
     (cd "build/debian/$name/bindings/python" && /usr/bin/python3 setup.py -q sdist --dist-dir "$out") >"$log" 2>&1 &&
         mkdir build/python-source && tar -C build/python-source --strip-components=1 -xf "$out/$name.tar.gz" || { tail -n 20 "$log" >&2; exit 1; }
-    if prepare_debian11; then
-        release_linux "$out" "$version" x86_64 "-DCMAKE_TOOLCHAIN_FILE=$PWD/cmake/debian11.cmake"
-    else
-        echo "run: SKIPPED: the archive and the wheel for glibc 2.31 (see above): they are built for this machine's" >&2
-        release_linux "$out" "$version" "$(uname -m)"
-    fi
-    if prepare_zig; then
-        release_linux "$out" "$version" aarch64 "-DCMAKE_TOOLCHAIN_FILE=$PWD/cmake/zig.cmake" -DKNURL_ZIG_TARGET=aarch64-linux-gnu.2.31
-    else
-        echo "run: SKIPPED: the archive and the wheel for arm64, see above" >&2
-    fi
+    release_linux "$out" "$version"
     package_godot
     package_unity
     package_windows
