@@ -363,12 +363,17 @@ int help_print_completion(const char *shell) {
         complete_fish();
         return 0;
     }
-    if (strcmp(shell, "zsh") == 0) {
-        fputs("autoload -U +X bashcompinit && bashcompinit\n", stdout);
-    } else if (strcmp(shell, "bash") != 0) {
+    const int is_zsh = strcmp(shell, "zsh") == 0;
+    if (!is_zsh && strcmp(shell, "bash") != 0) {
         return 1;
     }
+    if (is_zsh) {
+        fputs("#compdef knurl\nautoload -U +X bashcompinit && bashcompinit\n", stdout);
+    }
     complete_bash();
+    if (is_zsh) { /* as a file in fpath it is the body of _knurl(): the first completion has to go on */
+        fputs("[ \"${funcstack[1]}\" != _knurl ] || _bash_complete -o default -F _knurl\n", stdout);
+    }
     return 0;
 }
 

@@ -104,6 +104,7 @@ TEST(man_page_and_completions_name_every_command) {
         check_has(zsh.out, commands[i]);
         check_has(fish.out, commands[i]);
     }
+    assert_memory_equal(zsh.out, "#compdef knurl\n", 15); /* for a folder in zsh's fpath */
     process_free(&man);
 }
 
