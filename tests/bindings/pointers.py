@@ -43,6 +43,10 @@ VALUES = {
     "knurl_scene_tick_batch.count": "1",
     "knurl_scene_find_closest_batch.count": "1",
     "knurl_scene_set_gains.count": "0",
+    "knurl_scene_set_effects.count": "0",
+    "kind int32_t": "KNURL_EFFECT_SPRING",
+    "effect knurl_effect *": "&f->effect",
+    "effects const knurl_effect *": "&f->effect",
     "gains knurl_gain *": "f->gains",
     "knurl_gains_from_response.file": r'"# knurl response 1\nfrequency_hz,gain\n20,1\n400,1\n"',
     "knurl_gains_from_response.size": "48",
@@ -145,7 +149,7 @@ MAY_BE_NULL = {
     "knurl_device_close.device", "knurl_loop_destroy.loop", "knurl_scene_destroy.scene", "knurl_session_destroy.session",
     "knurl_audio_destroy.audio", "knurl_sound_release.sound", "knurl_audio_create.desc",
     "knurl_scene_create.desc", "knurl_scene_configure_hip.desc",  # all defaults
-    "knurl_scene_set_gains.gains",  # off
+    "knurl_scene_set_gains.gains", "knurl_scene_set_effects.effects",  # off
     "knurl_fail.format", "knurl_device_list.listings", "knurl_scene_add_surface.surface",
     "knurl_scene_get_tick.output", "knurl_scene_get_tick.counts", "knurl_scene_get_contacts.contacts",
     "knurl_method_add.user",

@@ -43,6 +43,7 @@ typedef struct fixture {
     double vector[4], axis[4], quaternion[4], matrix[12], rows[8], out[4], forces[12];
     float history[2];
     knurl_gain gains[KNURL_GAINS];
+    knurl_effect effect;
     char text[256];
     knurl_hip_contact contacts[1];
 } fixture;

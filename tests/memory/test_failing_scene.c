@@ -212,6 +212,12 @@ static knurl_result call_configure(void) {
     return result ? result : knurl_scene_set_gains(scene, 0, gains, 2);
 }
 
+static knurl_result call_set_effects(void) {
+    knurl_effect effect;
+    const knurl_result result = knurl_effect_prepare(KNURL_EFFECT_SPRING, &effect);
+    return result ? result : knurl_scene_set_effects(scene, 0, &effect, 1, 0.0);
+}
+
 static knurl_result call_set_workspace(void) {
     knurl_workspace workspace;
     knurl_workspace_set_identity(&workspace);
@@ -329,6 +335,7 @@ TEST(a_scene_is_as_it_was_wherever_memory_runs_out) {
         {"knurl_scene_set_material()", make_full, call_set_material, free_scene, scene_state, 0, 0},
         {"knurl_scene_set_transform()", make_full, call_set_transform, free_scene, scene_state, 0, 0},
         {"knurl_scene_configure_hip()", make_full, call_configure, free_scene, scene_state, 0, 0},
+        {"knurl_scene_set_effects()", make_full, call_set_effects, free_scene, scene_state, 0, 0},
         {"knurl_scene_set_workspace()", make_full, call_set_workspace, free_scene, scene_state, 0, 0},
         {"knurl_scene_find_surface()", make_full, call_find_surface, free_scene, scene_state, 0, 0},
         {"... of an unknown name", make_full, call_find_unknown, free_scene, scene_state, 1, 0},

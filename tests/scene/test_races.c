@@ -94,6 +94,42 @@ TEST(a_workspace_is_whole_while_its_hip_is_configured_anew) {
     assert_true(torn == 0);
 }
 
+/* --- effects that are replaced while their HIP ticks --- */
+
+/* Along x and z the same force: 0 to 4 effects of 0.1 N each. */
+static void *tick_effects(void *user) {
+    while (!is_over()) {
+        const knurl_tick_input input = {.has_velocity = 1};
+        knurl_tick_output out;
+        if (knurl_scene_tick(user, 0, &input, &out) != KNURL_OK || fabs(out.force[0] - out.force[2]) > 1e-12 ||
+            fabs(10.0 * out.force[0] - floor(10.0 * out.force[0] + 0.5)) > 1e-9) {
+            knurl_count_up(&torn);
+        }
+    }
+    return NULL;
+}
+
+static void replace_effects(void *user) {
+    static uint32_t number;
+    knurl_effect effects[KNURL_EFFECTS_MAX];
+    for (int i = 0; i < KNURL_EFFECTS_MAX; i++) {
+        assert_int_equal(knurl_effect_prepare(KNURL_EFFECT_FORCE, &effects[i]), KNURL_OK);
+        effects[i].axis[1] = 0.0;
+        effects[i].axis[i % 2 ? 0 : 2] = 1.0;
+        effects[i].max_force = 0.1;
+    }
+    assert_int_equal(knurl_scene_set_effects(user, 0, effects, 2 * (number++ % 5), 0.01), KNURL_OK);
+}
+
+TEST(a_tick_sees_all_effects_of_an_edit_or_none) {
+    SCOPED_SCENE *scene = empty_scene(1);
+    configure_plainly(scene, 0);
+    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
+    torn = 0;
+    together(tick_effects, replace_effects, scene);
+    assert_true(torn == 0);
+}
+
 /* --- ticks that do not wait for the commit --- */
 
 static void *tick_until_committed(void *user) {

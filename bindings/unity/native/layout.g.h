@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "f77ef2f8d1028b1a"
+#define KNURL_UNITY_INTERFACE "f6e8a2748c5d8e39"
 
 /** The mirrored structs, as C# lays them out: STRUCT(type, bytes), FIELD(type, field, name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
@@ -241,6 +241,16 @@
     FIELD(knurl_device_functions, close, "close", 56, 8) \
     FIELD(knurl_device_functions, motors_known, "motors_known", 64, 4) \
     FIELD(knurl_device_functions, reserved, "reserved", 68, 4) \
+    STRUCT(knurl_effect, 120) \
+    FIELD(knurl_effect, kind, "kind", 0, 4) \
+    FIELD(knurl_effect, reserved_bits, "reserved_bits", 4, 4) \
+    FIELD(knurl_effect, anchor, "anchor", 8, 24) \
+    FIELD(knurl_effect, axis, "axis", 32, 24) \
+    FIELD(knurl_effect, stiffness, "stiffness", 56, 8) \
+    FIELD(knurl_effect, damping, "damping", 64, 8) \
+    FIELD(knurl_effect, spacing, "spacing", 72, 8) \
+    FIELD(knurl_effect, max_force, "max_force", 80, 8) \
+    FIELD(knurl_effect, reserved, "reserved", 88, 32) \
     STRUCT(knurl_stroke_desc, 136) \
     FIELD(knurl_stroke_desc, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_stroke_desc, stroke, "stroke", 4, 4) \

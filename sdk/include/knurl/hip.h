@@ -25,7 +25,7 @@ enum {
     KNURL_PROTECT_SLEW = 2,  /**< the device's force grows and turns at most at slew_rate, except for the texture's own
                                 steps; after KNURL_TICK_SQUEEZED it also falls at most at that rate */
     KNURL_PROTECT_HEAT = 4,  /**< the force is reduced towards continuous_force as the motors warm up */
-    KNURL_PROTECT_PASSIVITY = 8, /**< a wall is softened if it makes the hand oscillate */
+    KNURL_PROTECT_PASSIVITY = 8, /**< a wall is softened if it makes the hand oscillate, effects so that they do not */
     KNURL_PROTECT_ALL = 15
 };
 
@@ -146,7 +146,8 @@ enum {
     KNURL_TICK_ENTRY = 32,         /**< the entry ramp limited a depth */
     KNURL_TICK_SLEW = 64,          /**< the slew rate limited the force */
     KNURL_TICK_HEAT = 128,         /**< the force was shortened because the motors are warm */
-    KNURL_TICK_PASSIVITY = 256,    /**< a wall was softened because it made the HIP oscillate */
+    KNURL_TICK_PASSIVITY = 256,    /**< a wall was softened because it made the HIP oscillate, or effects because they
+                                        would (knurl_scene_set_effects()) */
     KNURL_TICK_ABSENT = 512,       /**< the input was `absent` */
     KNURL_TICK_SQUEEZED = 1024, /**< the proxy was caught between two surfaces, one of which moved over it: that one no
                                      longer holds the HIP, and the force falls at slew_rate. If the angle between them

@@ -8,6 +8,7 @@
 #include <knurl/contact.h>
 #include <knurl/device.h>
 #include <knurl/device_functions.h>
+#include <knurl/effect.h>
 #include <knurl/fake.h>
 #include <knurl/gltf.h>
 #include <knurl/grating.h>

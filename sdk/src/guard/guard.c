@@ -9,10 +9,25 @@ void knurl_guard_init(knurl_guard *guard, const knurl_hip_desc *desc, const knur
     guard->clamp = (int32_t)desc->clamp;
 }
 
+/* Effects pull from both sides, so a swing does not leave them as it leaves a wall, and they are limited before they
+ * shake. Tuned in the stability laboratory (samples/study/README.md): a device without dry friction in a loose hand
+ * starts to shake at `safe`, and a Touch, raw, at a damping of 33 N s/m, or 8 with four ticks of delay. */
+#define EFFECT_STIFFNESS 0.8  /* of the `safe` stiffness */
+#define EFFECT_DAMPING   20.0 /* N s/m, at the device */
+#define EFFECT_TIME      0.03 /* s: damping over `safe` */
+
+static void limit_effects(knurl_guard *guard, const knurl_hip_facts *facts, double scale) {
+    const double safe = guard->passivity.safe;
+    const int watches = safe < HUGE_VAL;
+    guard->effect_stiffness = watches ? knurl_min(EFFECT_STIFFNESS * safe, facts->max_stiffness / scale) : HUGE_VAL;
+    guard->effect_damping = watches ? knurl_min(EFFECT_TIME * safe, EFFECT_DAMPING / scale) : HUGE_VAL;
+}
+
 void knurl_guard_set_scale(knurl_guard *guard, const knurl_hip_desc *desc, const knurl_hip_facts *facts, double scale) {
     const double period = 1.0 / facts->rate;
     guard->entry = desc->protections & KNURL_PROTECT_ENTRY ? KNURL_ENTRY_SPEED_MAX * scale * period : HUGE_VAL;
     knurl_passivity_set_scale(&guard->passivity, (desc->protections & KNURL_PROTECT_PASSIVITY) != 0, facts, scale);
+    limit_effects(guard, facts, scale);
     knurl_bounds_init(&guard->bounds, facts, scale);
 }
 

@@ -18,6 +18,7 @@ typedef struct knurl_guard {
     int32_t clamp; /* 1: clamp walls to `bounds` */
     knurl_passivity passivity;
     knurl_bounds bounds;
+    double effect_stiffness, effect_damping; /* N/m, N s/m: limits of all effects together; infinite: protection off */
 } knurl_guard;
 
 /* Sets the protections up. facts: complete. */

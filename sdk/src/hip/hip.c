@@ -110,6 +110,7 @@ knurl_result knurl_hip_set_up(knurl_hip *hip, const knurl_hip_desc *d, const knu
     }
     made.facts = facts;
     made.even = hip->even;
+    made.effects = hip->effects;
     made.last.heat.square = hip->last.heat.square; /* setting up a scene does not cool motors */
     knurl_last_stage_init(&made.last, d->protections, d->slew_rate, &facts);
     knurl_guard_init(&made.guard, d, &facts);

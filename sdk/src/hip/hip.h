@@ -4,6 +4,7 @@
 
 #include "guard/guard.h"
 #include "guard/last_stage.h"
+#include "hip/effects.h"
 #include "hip/even.h"
 #include "hip/hip_workspace.h"
 #include "hip/snapshot.h"
@@ -31,9 +32,10 @@ typedef struct knurl_hip {
     knurl_hip_facts facts;     /* in use */
     knurl_workspace_move move; /* of the workspace */
     knurl_even even;
-    double estimate[3];  /* m/s, device: the velocity, if it is estimated */
-    double between[3];   /* m, scene: from the measured position to the tracked one */
-    uint64_t tracked_at; /* tick that found it, from 1; 0: none */
+    knurl_effects *effects; /* atomic: or null */
+    double estimate[3];     /* m/s, device: the velocity, if it is estimated */
+    double between[3];      /* m, scene: from the measured position to the tracked one */
+    uint64_t tracked_at;    /* tick that found it, from 1; 0: none */
     knurl_contacts contacts;
 } knurl_hip;
 

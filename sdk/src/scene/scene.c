@@ -36,6 +36,9 @@ static void free_scene(knurl_scene *scene) {
     knurl_surfaces_release(&scene->surfaces);
     knurl_broad_phase_release(&scene->broad_phase);
     knurl_epoch_release(&scene->heap, scene->epoch.retired);
+    for (uint32_t hip = 0; scene->hips && hip < scene->hip_count; hip++) {
+        knurl_heap_free(&scene->heap, scene->hips[hip].effects);
+    }
     knurl_heap_free(&scene->heap, scene->hips);
     for (int i = 0; i < 2; i++) {
         knurl_system_mutex_destroy(&scene->mutexes[i]);

@@ -60,6 +60,49 @@ knurl_result knurl_scene_set_gains(knurl_scene *scene, uint32_t hip, const knurl
     return result;
 }
 
+static void release_effects(knurl_heap *heap, knurl_retired *effects) {
+    knurl_heap_free(heap, effects);
+}
+
+/* Swaps a HIP's effects; those before are kept until no tick uses them. Under the lock. */
+static knurl_result set_effects(knurl_scene *scene, knurl_hip *hip, const knurl_effect *effects, uint32_t count,
+                                double seconds) {
+    knurl_effects *before = hip->effects;
+    knurl_effects *made = NULL;
+    if (count > 0) {
+        const knurl_hip_clock *clock = &hip->contacts.clock;
+        made = knurl_heap_alloc(&scene->heap, 1, sizeof *made);
+        if (!made) {
+            return KNURL_ERROR_MEMORY;
+        }
+        made->retired.release = release_effects;
+        knurl_effects_place(made, effects, count, before, knurl_load_double(&clock->time), clock->period, seconds);
+    }
+    __atomic_store_n(&hip->effects, made, __ATOMIC_SEQ_CST);
+    if (before) {
+        knurl_epoch_retire(&scene->epoch, &before->retired);
+    }
+    return KNURL_OK;
+}
+
+knurl_result knurl_scene_set_effects(knurl_scene *scene, uint32_t hip, const knurl_effect *effects, uint32_t count,
+                                     double seconds) {
+    if (KNURL_BAD_HANDLE(scene, SCENE)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
+    knurl_result result = knurl_scene_check_hip(scene, hip);
+    result = result ? result : knurl_effects_check(effects, count);
+    if (!result && !knurl_is_within(seconds, 0.0, 10.0)) {
+        result = knurl_fail(KNURL_ERROR_ARGUMENT, "seconds: expected 0 to 10, found %g", seconds);
+    }
+    if (!result) {
+        knurl_scene_lock(scene);
+        result = set_effects(scene, &scene->hips[hip], effects, count, seconds);
+        knurl_scene_unlock(scene);
+    }
+    return result;
+}
+
 knurl_result knurl_scene_adopt_device(knurl_scene *scene, uint32_t hip, const knurl_hip_facts *facts) {
     knurl_hip *h = &scene->hips[hip];
     knurl_result result;

@@ -180,10 +180,29 @@ static inline double render_contact(knurl_hip *hip, const knurl_tick_input *inpu
     return step;
 }
 
-/* 1 if there is no contact, no added force and no force at the last tick: there is nothing to limit. */
-static inline int is_at_rest(const knurl_hip *hip, const knurl_added_force *added) {
+/* The share of `asked` that is within `most`. */
+static double share_within(double asked, double most, uint32_t *flags) {
+    if (asked <= most) {
+        return 1.0;
+    }
+    *flags |= KNURL_TICK_PASSIVITY;
+    return most / asked;
+}
+
+/* Adds the forces of effects, at most as stiff and as viscous as is stable in a loose hand. */
+static void add_effects(const knurl_hip *hip, const knurl_effects *effects, double sum[3], knurl_tick_output *out) {
+    const knurl_guard *guard = &hip->guard;
+    const knurl_effect_shares shares = {share_within(effects->stiffness, guard->effect_stiffness, &out->flags),
+                                        share_within(effects->damping, guard->effect_damping, &out->flags)};
+    double force[3];
+    knurl_effects_force(effects, &shares, out->hip, out->hip_velocity, hip->contacts.clock.time, force);
+    vec3_madd(sum, 1.0, force, sum);
+}
+
+/* 1 if there is no contact, no effect, no added force and no force at the last tick: there is nothing to limit. */
+static inline int is_at_rest(const knurl_hip *hip, const knurl_effects *effects, const knurl_added_force *added) {
     const double *force = hip->last.force;
-    return hip->contacts.now.count == 0 && !added && force[0] == 0.0 && force[1] == 0.0 && force[2] == 0.0;
+    return hip->contacts.now.count == 0 && !effects && !added && force[0] == 0.0 && force[1] == 0.0 && force[2] == 0.0;
 }
 
 /* Converts the sum of all forces to device axes and limits it there: a rotating workspace must not make the device's
@@ -207,13 +226,16 @@ static inline double send_force(knurl_hip *hip, double steps, const double force
     return length;
 }
 
-/* Sums the forces of all contacts and of the game (N, scene), and sends the sum. Returns its length. */
-static inline double sum_forces(knurl_hip *hip, const knurl_tick_input *input, const knurl_added_force *added,
-                                knurl_tick_output *out) {
+/* Sums the forces of all contacts, of effects and of the game (N, scene), and sends the sum. Returns its length. */
+static inline double sum_forces(knurl_hip *hip, const knurl_tick_input *input, const knurl_effects *effects,
+                                const knurl_added_force *added, knurl_tick_output *out) {
     double force[3] = {0.0, 0.0, 0.0};
     double steps = 0.0;
     for (uint32_t i = 0; i < hip->contacts.now.count; i++) {
         steps += render_contact(hip, input, &hip->contacts.now.list[i], force, out);
+    }
+    if (KNURL_UNLIKELY(effects != NULL)) {
+        add_effects(hip, effects, force, out);
     }
     if (KNURL_UNLIKELY(added != NULL)) {
         vec3_madd(force, 1.0, added->force, force);
@@ -252,12 +274,13 @@ static double render(const knurl_scene *scene, knurl_hip *hip, const knurl_tick_
         return 0.0;
     }
     knurl_contacts_update(&hip->contacts, &scene->broad_phase, index, out->hip, &out->flags);
+    const knurl_effects *effects = __atomic_load_n(&hip->effects, __ATOMIC_SEQ_CST);
     double length = 0.0;
-    if (is_at_rest(hip, added)) {
+    if (is_at_rest(hip, effects, added)) {
         vec3_copy(out->force, out->device_force);
         knurl_heat_add(&hip->last.heat, 0.0);
     } else {
-        length = sum_forces(hip, input, added, out);
+        length = sum_forces(hip, input, effects, added, out);
     }
     if (KNURL_UNLIKELY(!knurl_is_finite(length))) {
         reset(hip, KNURL_TICK_NOT_FINITE, out);

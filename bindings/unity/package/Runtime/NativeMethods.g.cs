@@ -360,6 +360,20 @@ namespace Knurl
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_effect
+    {
+        public int kind;
+        public uint reserved_bits;
+        public fixed double anchor[3];
+        public fixed double axis[3];
+        public double stiffness;
+        public double damping;
+        public double spacing;
+        public double max_force;
+        public fixed ulong reserved[4];
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct knurl_stroke_desc
     {
         public uint struct_size;
@@ -671,7 +685,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>The result of knurl_unity_interface() of the library that this file was generated for.</summary>
-        internal const string Interface = "f77ef2f8d1028b1a";
+        internal const string Interface = "f6e8a2748c5d8e39";
 
         internal const string Version = "0.3.0";
 
@@ -707,6 +721,7 @@ namespace Knurl
                 case "knurl_device_event": return sizeof(knurl_device_event);
                 case "knurl_device_status": return sizeof(knurl_device_status);
                 case "knurl_device_functions": return sizeof(knurl_device_functions);
+                case "knurl_effect": return sizeof(knurl_effect);
                 case "knurl_stroke_desc": return sizeof(knurl_stroke_desc);
                 case "knurl_fake_truth": return sizeof(knurl_fake_truth);
                 case "knurl_gltf_options": return sizeof(knurl_gltf_options);
@@ -743,6 +758,7 @@ namespace Knurl
         internal const double KNURL_UPDATE_RATE_MAX = 10000.0;
         internal const int KNURL_VISITS_MAX = 800;
         internal const int KNURL_GAINS = 75;
+        internal const int KNURL_EFFECTS_MAX = 8;
         internal const int KNURL_PATH_ROWS_MAX = 65536;
         internal const double KNURL_FAR = 1000000.0;
         internal const double KNURL_STRETCH_MAX = 2.0;
@@ -824,6 +840,12 @@ namespace Knurl
         internal const int KNURL_FORCE_OFF_DEADMAN = 6;
         internal const int KNURL_FORCE_OFF_POWER = 7;
         internal const int KNURL_FORCE_OFF_NOT_READY = 8;
+        internal const int KNURL_EFFECT_SPRING = 1;
+        internal const int KNURL_EFFECT_DETENT = 2;
+        internal const int KNURL_EFFECT_DAMPER = 3;
+        internal const int KNURL_EFFECT_LINE = 4;
+        internal const int KNURL_EFFECT_PLANE = 5;
+        internal const int KNURL_EFFECT_FORCE = 6;
         internal const int KNURL_STROKE_LINE = 1;
         internal const int KNURL_STROKE_SWEEP = 2;
         internal const int KNURL_STROKE_CIRCLE = 3;
@@ -1101,6 +1123,13 @@ namespace Knurl
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_device_open_functions(knurl_device_functions* functions,
             knurl_device** device);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_effect_prepare(int kind, knurl_effect* effect);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_scene_set_effects(knurl_scene* scene, uint hip, knurl_effect* effects,
+            uint count, double seconds);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void knurl_stroke_desc_init(knurl_stroke_desc* desc, uint size);
