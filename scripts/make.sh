@@ -51,7 +51,7 @@ figures() {
         picture "$name" figures.py "build/study/$name".{json,csv}
     done
     picture speed_accuracy figures.py build/study/speed_accuracy.json build/study/tradeoff.csv # from the tradeoff
-    for name in stability_methods stability_amplitudes; do # from the same study
+    for name in stability_methods stability_amplitudes stability_effects; do # from the same study
         picture "$name" figures.py "build/study/$name".{json,csv}
     done
     if [ "$how" = --check ]; then
@@ -59,7 +59,7 @@ figures() {
         echo 'run: the pictures show what the code does'
         return 0
     fi
-    /usr/bin/python3 samples/study/dark.py "$out"/{sweep,stability,speed_accuracy,smooth,even}.png # for README.md, docs/
+    /usr/bin/python3 samples/study/dark.py "$out"/{sweep,stability,stability_effects,speed_accuracy,smooth,even}.png # for README.md, docs/
     [ "$how" != --update ] || cp build/study/failures.md samples/study/failures.md
     echo "run: the numbers are in build/study, the pictures and what they were drawn from in $out"
 }

@@ -180,4 +180,37 @@ def draw_amplitudes(data, folder):
     return figure
 
 
-FIGURES = {"stability": draw_stability, "stability_methods": draw_stiffnesses, "stability_amplitudes": draw_amplitudes}
+def draw_effects(data, folder):
+    """Each effect and device a row, each hand a column."""
+    table = read_table(folder, data["table"])
+    grips = list(dict.fromkeys(table["grip"]))
+    rows = list(dict.fromkeys(zip(table["method"], table["label"])))
+    figure, grid = plt.subplots(len(rows), len(grips), figsize=(10.5, 2.0 * len(rows) + 2.4), sharex=True, sharey=True)
+    for i, (row, (effect, label)) in enumerate(zip(grid, rows)):
+        b, _, _, delay, _ = DEVICES[label]
+        for j, (ax, grip) in enumerate(zip(row, grips)):
+            raw = cells(table, label, grip, effect, "raw")
+            draw_map(ax, table, raw)
+            draw_stopped(ax, table, raw, cells(table, label, grip, effect, "protected"), 1.0)
+            ax.axhline(0.8 * (b + 0.5) / (1e-3 * (0.5 + delay)), color=INK, lw=1.2)
+            ticks(ax, "x", [0.1, 1, 10])
+            ticks(ax, "y", [100, 300, 1000, 3000, 10000])
+            ax.tick_params(labelsize=8.5)
+            if i == 0:
+                ax.set_title(f"{grip} hand", fontsize=10.5, fontweight="bold", color=INK)
+        row[0].set_ylabel(f"{label}, {effect}\nK (N/m)", fontsize=9.5)
+    height = figure.get_figheight()
+    left = 0.95 / figure.get_figwidth()
+    figure.subplots_adjust(left=left, right=0.985, top=1 - 1.2 / height, bottom=1.2 / height, hspace=0.12, wspace=0.06)
+    figure.text((left + 0.985) / 2, 0.78 / height, "damping B (N s/m), of the velocity that is estimated from the encoders",
+                ha="center", color=INK)
+    heading(figure, "How stiff springs and notches may be", "Raw, at 1 kHz, judged after 2.25 s; notches are 10 mm apart",
+            left)
+    legend(figure, table, [
+        Line2D([], [], marker="o", ls="", color="white", mec=OUTCOMES["unstable"], mew=2.5, ms=7,
+               label="a runaway that the limit stops"),
+        Line2D([], [], color=INK, lw=1.2, label="the limit: 0.8 (b + 0.5)/(T/2 + td)")], 0.04)
+    return figure
+
+
+FIGURES = {"stability_effects": draw_effects, "stability": draw_stability, "stability_methods": draw_stiffnesses, "stability_amplitudes": draw_amplitudes}

@@ -127,23 +127,15 @@ static knurl_result open_device(const lab_case *c, double rate, const char *more
     return result ? result : knurl_device_start(*device, rate);
 }
 
-static knurl_result make_scene(const lab_case *c, const knurl_device_info *info, knurl_scene **scene) {
+static knurl_result add_wall(const lab_case *c, knurl_scene *scene) {
     static const double up[4] = {-0.70710678118654752, 0.0, 0.0,
                                  0.70710678118654752}; /* the plane's z is the wall's y */
-    knurl_scene_desc desc;
     knurl_surface_desc surface;
     knurl_material_desc material;
     knurl_plane_desc plane;
-    knurl_workspace workspace;
-    knurl_hip_desc hip;
-    knurl_surface_id id;
-    knurl_scene_desc_init(&desc, sizeof desc);
     knurl_surface_desc_init(&surface, sizeof surface);
     knurl_material_desc_init(&material, sizeof material);
     knurl_plane_desc_init(&plane, sizeof plane);
-    knurl_workspace_set_identity(&workspace);
-    knurl_hip_desc_init(&hip, sizeof hip);
-    desc.max_surfaces = 1;
     plane.half_extents[0] = 2.0;
     plane.half_extents[1] = 2.0;
     memcpy(surface.rotation, up, sizeof up);
@@ -156,6 +148,29 @@ static knurl_result make_scene(const lab_case *c, const knurl_device_info *info,
     material.method = c->amplitude > 0.0 ? c->method : KNURL_METHOD_DEFAULT;
     surface.plane = &plane;
     surface.material = &material;
+    return knurl_scene_add_surface(scene, &surface, NULL);
+}
+
+static knurl_result add_effect(const lab_case *c, const knurl_device_info *info, knurl_scene *scene) {
+    knurl_effect effect;
+    if (knurl_effect_prepare(c->effect, &effect)) { /* its axis is up */
+        return KNURL_ERROR_ARGUMENT;
+    }
+    effect.stiffness = c->stiffness;
+    effect.damping = c->damping;
+    effect.spacing = c->period;
+    effect.max_force = info->max_force;
+    return knurl_scene_set_effects(scene, 0, &effect, 1, 0.0);
+}
+
+static knurl_result make_scene(const lab_case *c, const knurl_device_info *info, knurl_scene **scene) {
+    knurl_scene_desc desc;
+    knurl_workspace workspace;
+    knurl_hip_desc hip;
+    knurl_scene_desc_init(&desc, sizeof desc);
+    knurl_workspace_set_identity(&workspace);
+    knurl_hip_desc_init(&hip, sizeof hip);
+    desc.max_surfaces = 1;
     hip.update_rate_hz = c->rate;
     hip.workspace = &workspace;
     hip.resolution = info->resolution;
@@ -168,7 +183,7 @@ static knurl_result make_scene(const lab_case *c, const knurl_device_info *info,
     hip.protections = KNURL_PROTECT_ALL & ~c->without;
     knurl_result result = knurl_scene_create(&desc, scene);
     result = result ? result : knurl_scene_configure_hip(*scene, 0, &hip);
-    result = result ? result : knurl_scene_add_surface(*scene, &surface, &id);
+    result = result ? result : c->effect ? add_effect(c, info, *scene) : add_wall(c, *scene);
     return result ? result : knurl_scene_commit(*scene);
 }
 
@@ -218,6 +233,12 @@ static void render(bench *b, const knurl_device_sample *sample, lab_signals *s, 
     b->last = sample->position[1];
 }
 
+/* m: of the spring at a height. */
+static double stretch(const lab_case *c, double height) {
+    const double turn = 2.0 * 3.14159265358979323846 / c->period;
+    return c->effect == KNURL_EFFECT_DETENT ? sin(turn * height) / turn : height;
+}
+
 /* Advances the reference over one tick, with the tick's H. It extrapolates by half a step, to compensate for holding
  * its force over the step. */
 static void follow(bench *b, double texture, lab_signals *s, size_t i) {
@@ -233,8 +254,8 @@ static void follow(bench *b, double texture, lab_signals *s, size_t i) {
             s->reference_force[i] = truth.motor[1];
         }
         const double ahead = truth.position[1] + 0.5 * dt * truth.velocity[1];
-        double force[3] = {0.0, c->stiffness * (texture - ahead) - c->damping * truth.velocity[1], 0.0};
-        if (!c->bilateral && (ahead > texture || force[1] < 0.0)) {
+        double force[3] = {0.0, c->stiffness * (texture - stretch(c, ahead)) - c->damping * truth.velocity[1], 0.0};
+        if (!c->bilateral && !c->effect && (ahead > texture || force[1] < 0.0)) {
             force[1] = 0.0;
         }
         (void)knurl_device_write(b->reference, force);

@@ -34,6 +34,12 @@ static const char *const devices[][2] = {{"preset=touch", "Touch"}, {"preset=fal
 static const char *const grips[] = {"loose", "light", "firm"};
 static const uint32_t guards[] = {KNURL_PROTECT_ALL, 0};
 
+/* The figure of effects. */
+static const int32_t effects[] = {KNURL_EFFECT_SPRING, KNURL_EFFECT_DETENT};
+static const char *const hands[] = {"loose", "light", "medium", "firm"};
+
+#define NOTCHES 0.01 /* m: the hand comes from the crest between two */
+
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
 static int bounds_at(size_t index, stability_map *map) {
@@ -51,6 +57,20 @@ static int bounds_at(size_t index, stability_map *map) {
     map->grip = "loose";
     map->method = 0;
     map->without = plants[plant].without;
+    return 1;
+}
+
+static int effects_at(size_t index, stability_map *map) {
+    if (index >= COUNT(effects) * COUNT(devices) * COUNT(hands) * COUNT(guards)) {
+        return 0;
+    }
+    map->figure = "stability_effects";
+    map->name = "wall damping";
+    map->without = guards[index % COUNT(guards)];
+    map->grip = hands[index / COUNT(guards) % COUNT(hands)];
+    map->device = devices[index / (COUNT(guards) * COUNT(hands)) % COUNT(devices)][0];
+    map->label = devices[index / (COUNT(guards) * COUNT(hands)) % COUNT(devices)][1];
+    map->effect = effects[index / (COUNT(guards) * COUNT(hands) * COUNT(devices))];
     return 1;
 }
 
@@ -76,6 +96,9 @@ int stability_map_at(const char *figure, size_t index, stability_map *map) {
     memset(map, 0, sizeof *map);
     if (strcmp(figure, "stability") == 0) {
         return bounds_at(index, map);
+    }
+    if (strcmp(figure, "stability_effects") == 0) {
+        return effects_at(index, map);
     }
     const size_t rows = COUNT(devices) * COUNT(grips) * COUNT(guards);
     const int32_t method = available(index / rows + (amplitudes ? 1 : 0)); /* a flat wall has no amplitude */
@@ -124,6 +147,11 @@ static void place(const stability_map *map, const knurl_device_info *limits, siz
     c->grip = lab_grip_named(map->grip);
     c->without = map->without;
     c->method = method->method;
+    c->effect = map->effect;
+    if (map->effect == KNURL_EFFECT_DETENT) {
+        c->period = NOTCHES;
+        c->press = 0.0;
+    }
     c->amplitude = method->texture ? TEXTURE_A : 0.0;
     if (strcmp(map->figure, "stability_amplitudes") == 0) {
         c->stiffness = 0.5 * limits->max_stiffness;

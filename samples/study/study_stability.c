@@ -11,7 +11,7 @@
 #define MAX_MAPS 64
 #define CELLS    (STABILITY_COLUMNS * STABILITY_ROWS)
 
-static const char *const figures[] = {"stability", "stability_methods", "stability_amplitudes"};
+static const char *const figures[] = {"stability", "stability_methods", "stability_amplitudes", "stability_effects"};
 
 #define FIGURES (sizeof figures / sizeof *figures)
 
@@ -27,12 +27,18 @@ typedef struct chart {
     size_t check_count;
 } chart;
 
+static const char *name_of(const stability_map *map) {
+    return map->effect == 0                     ? stability_methods[map->method].name
+           : map->effect == KNURL_EFFECT_DETENT ? "detent"
+                                                : "spring";
+}
+
 static void write_cell(FILE *csv, const stability_map *map, const stability_cell *cell) {
     const lab_result *r = &cell->result;
     const double values[] = {
         cell->x, cell->y,  r->energy, r->unauthorised, r->activity_force, r->activity_motion, r->activity,
         r->felt, r->asked, r->bangs,  r->swing,        r->force_max,      r->guarded_ticks};
-    fprintf(csv, "%s,%s,%s,%s,%s,%s", map->name, map->label, map->grip, stability_methods[map->method].name,
+    fprintf(csv, "%s,%s,%s,%s,%s,%s", map->name, map->label, map->grip, name_of(map),
             map->without ? "raw" : "protected", lab_outcome_name(r->outcome));
     for (size_t i = 0; i < sizeof values / sizeof *values; i++) {
         fputs(",", csv);
@@ -115,6 +121,29 @@ static void print_runaways(const chart *c) {
     }
 }
 
+/* Prints the stiffest spring that rests, below all that do not, over all dampings. */
+static void print_stiffest(const chart *c) {
+    printf("\nEffects: the stiffness up to which every cell rests, and the cells that do not\n\n"
+           "| device, hand | effect | protections | N/m | do not rest | of |\n|---|---|---|---|---|---|\n");
+    for (size_t m = 0; m < c->maps; m++) {
+        const stability_map *map = &c->map[m];
+        double least = HUGE_VAL;
+        double stiffest = 0.0;
+        int bad = 0;
+        for (size_t i = 0; i < c->cells[m]; i++) {
+            const stability_cell *cell = &c->cell[m][i];
+            const int rests = cell->result.outcome == LAB_REST;
+            least = rests ? least : fmin(least, cell->y);
+            bad += !rests;
+        }
+        for (size_t i = 0; i < c->cells[m]; i++) {
+            stiffest = c->cell[m][i].y < least ? fmax(stiffest, c->cell[m][i].y) : stiffest;
+        }
+        say(stdout, "| %s, %s | %s | %s | %.0f | %d | %d |\n", map->label, map->grip, name_of(map),
+            map->without ? "raw" : "protected", stiffest, bad, (int)c->cells[m]);
+    }
+}
+
 static int run_chart(chart *c, size_t figure, lab_signals *signals) {
     c->figure = figures[figure];
     c->maps = 0;
@@ -152,7 +181,9 @@ int study_stability(const char *folder) {
         if (!failed && study_write(folder, figures[figure], write_chart, c)) {
             break; /* the reason was printed */
         }
-        if (!failed && figure > 0) {
+        if (!failed && strcmp(figures[figure], "stability_effects") == 0) {
+            print_stiffest(c);
+        } else if (!failed && figure > 0) {
             print_runaways(c);
         }
     }
