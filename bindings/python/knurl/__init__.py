@@ -6,6 +6,7 @@ from . import metrics
 from ._library import KnurlError, arrays_of, check, ffi, lib, version
 from .callbacks import Sample
 from .device import Device, Event, Listing, devices
+from .effects import Effect
 from .loop import Loop
 from .methods import add_method
 from .scene import Material, Scene, Surface
@@ -13,7 +14,7 @@ from .signals import Grating, Velocity
 from .tagging import Tagged, tag, tags, untag
 from .ticks import Ticks, Verdict, as_ticks
 
-__all__ = ["Device", "Event", "Grating", "KnurlError", "Listing", "Loop", "Material", "Sample", "Scene", "Surface",
+__all__ = ["Device", "Effect", "Event", "Grating", "KnurlError", "Listing", "Loop", "Material", "Sample", "Scene", "Surface",
            "Tagged", "Ticks", "Velocity", "Verdict", "add_method", "arrays_of", "as_ticks", "check", "devices", "ffi", "lib", "metrics",
            "tag", "tags", "untag", "version"]
 __version__ = version()

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from ._library import Owner, arrays_of, check, described, ffi, fill, lib, refuse, to_python
 from .callbacks import in_callback
+from .effects import Effect
 from .methods import raise_error
 from .ticks import OUTPUTS, Ticks, as_ticks, copy_fields, packed
 
@@ -275,6 +276,14 @@ class Scene(Owner):
         elif on:
             check(lib.knurl_gains_from_plant(mass, viscous, rate, gains))
         check(lib.knurl_scene_set_gains(self.handle, hip, gains, lib.KNURL_GAINS if on else 0))
+
+    def set_effects(self, effects: Sequence[Effect] = (), seconds: float = 0.0, hip: int = 0) -> None:
+        """Replaces a HIP's effects, also while a loop ticks it; the anchors of those whose kind was at the same place
+        before move over `seconds`. As knurl_scene_set_effects()."""
+        array = ffi.new("knurl_effect[]", len(effects))
+        for i, effect in enumerate(effects):
+            effect._fill(ffi.addressof(array, i))
+        check(lib.knurl_scene_set_effects(self.handle, hip, array, len(effects), seconds))
 
     def commit(self) -> None:
         """Makes the scene ready to tick. Call it once, after the first surfaces."""
