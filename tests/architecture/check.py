@@ -35,6 +35,7 @@ MODULES = {
 DECLARED_IN = {room: {"scene", "hip"} for room in ("surface", "proxy", "guard", "hip")}
 DECLARED_IN["stroke"] = {"scene", "fake"}
 DECLARED_IN["device"] = {"device_functions", "fake"}
+DECLARED_IN["hip"] = {"scene", "hip", "effect"}
 DECLARED_IN["audio"] = {"hip"}
 # Headers without anything to link, for targets that link only the library's public functions: gltf, bindings and
 # samples.

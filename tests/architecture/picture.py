@@ -36,7 +36,7 @@ BOXES = {
     "broad_phase": (238, 372, 108, "broad_phase", "what is near", ["surface/broad_phase"]),
     "candidates": (363, 372, 108, "candidates", "what may be met", ["proxy/candidate", "proxy/candidates", "proxy/hip_clock"]),
     "contact_update": (488, 372, 108, "contact_update", "begin, hold, end", ["proxy/contact_update"]),
-    "force_law": (613, 372, 108, "force_law", "F = K (H - z)", ["hip/even", "hip/force_law", "hip/friction", "hip/response"]),
+    "force_law": (613, 372, 108, "force_law", "F = K (H - z)", ["hip/effects", "hip/even", "hip/force_law", "hip/friction", "hip/response"]),
     "guard": (738, 372, 108, "guard", "first and last", ["guard/guard", "guard/last_stage"]),
     "snapshot": (863, 372, 108, "snapshot", "for other threads", ["hip/snapshot"]),
     "limits": (738, 456, 190, "wall, passivity, bounds, heat", "nothing runs away or burns",
