@@ -83,7 +83,7 @@ bench() {
 web() {
     local begin=$SECONDS code=0
     need_packages "${WEB_PACKAGES[@]}"
-    command -v npm >/dev/null || need_packages npm
+    need_npm
     mkdir -p build
     with_progress 'building the page' build/web.log samples/web/build.sh "$PWD/build/web-work" "$PWD/build/web" || code=$?
     if [ $code -ne 0 ]; then

@@ -119,6 +119,11 @@ look_for_packages() {
     [ $((${#missing[@]} + ${#headers[@]})) -eq 0 ] || exit $EXIT_SETUP
 }
 
+# npm, from wherever it is.
+need_npm() {
+    command -v npm >/dev/null || need_packages npm
+}
+
 # A Python environment in build/NAME from a file of requirements, pinned by version and hash.
 need_python() {
     local venv=build/$1 requirements=$2

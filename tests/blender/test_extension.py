@@ -1,76 +1,16 @@
-"""The Blender extension in a real Blender, installed from its zip; the tool judges the files that it makes.
-usage: PYTHON_WITH_BPY test_extension.py KNURL ZIP     or: blender --background --python test_extension.py -- KNURL ZIP
+"""The Blender extension's settings, exports and imports; the tool judges the files. usage: see installed.py
 SPDX-License-Identifier: MIT"""
 import json
 import os
-import shutil
-import struct
-import subprocess
+import re
 import sys
-import tempfile
-import unittest
-import unittest.mock
 import zipfile
 
-import bpy  # before addon_utils, whose folder it adds
-import addon_utils
-import numpy
-
-KNURL, ZIP = sys.argv[-2:]
-IS_EXTENSION = bpy.app.version >= (4, 2)
-NAME = "bl_ext.user_default.knurl" if IS_EXTENSION else "knurl"
-if not hasattr(numpy, "bool"):
-    numpy.bool = bool  # Debian 12's Blender 3.4 needs it to import glTF with its own numpy
+import installed
+from installed import NAME, ZIP, bpy, addon_utils, inspect, json_of
 
 
-def install():
-    """Installs the zip as a user does; for versions before 4.2 it is unpacked here."""
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    addon_utils.enable("io_scene_gltf2")
-    if IS_EXTENSION:
-        bpy.ops.extensions.package_install_files(filepath=ZIP, repo="user_default", enable_on_install=True)
-    else:
-        folder = tempfile.mkdtemp()
-        with zipfile.ZipFile(ZIP) as archive:
-            archive.extractall(folder)
-        sys.path.insert(0, folder)
-        addon_utils.enable(NAME, default_set=True)
-    assert NAME in bpy.context.preferences.addons, "the extension is not enabled"
-
-
-def inspect(path):
-    """The surfaces in the output of `knurl inspect`, and its messages."""
-    done = subprocess.run([KNURL, "inspect", path], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=True)
-    return json.loads(done.stdout)["surfaces"], done.stderr
-
-
-def json_of(path):
-    with open(path, "rb") as file:
-        data = file.read()
-    return json.loads(data[20:20 + struct.unpack_from("<I", data, 12)[0]])
-
-
-class Extension(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        install()
-
-    def setUp(self):
-        for blocks in (bpy.data.objects, bpy.data.meshes, bpy.data.materials):
-            for block in list(blocks):
-                blocks.remove(block)
-        bpy.ops.mesh.primitive_plane_add(size=0.1)
-        self.object = bpy.context.object
-        self.material = bpy.data.materials.new("ridges")
-        self.object.data.materials.append(self.material)
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-        self.path = os.path.join(self.folder.name, "plane.glb")
-
-    def export(self, extras=False):
-        bpy.ops.export_scene.gltf(filepath=self.path, export_extras=extras)
-        return json_of(self.path)
-
+class Extension(installed.Case):
     def test_millimetres_become_the_tag_that_the_tool_reads(self):
         self.material.knurl_on = True
         self.material.knurl_ridges = 0.5
@@ -78,7 +18,7 @@ class Extension(unittest.TestCase):
         self.material.knurl_hardness = 500.0
         self.material.knurl_play = "S2"
         for extras in (False, True):
-            made = self.export(extras)["materials"][0]["extras"]
+            made = self.export(export_extras=extras)["materials"][0]["extras"]
             self.assertEqual(list(made), ["knurl"])
             surfaces, said = inspect(self.path)
             self.assertEqual(said, "")
@@ -113,8 +53,8 @@ class Extension(unittest.TestCase):
         self.material.knurl_on = True
         self.material["mine"] = 1
         self.material.knurl_on = False
-        self.assertEqual(self.export(True)["materials"][0]["extras"], {"mine": 1})
-        self.assertNotIn("extras", self.export()["materials"][0])
+        self.assertEqual(self.export(warned=True, export_extras=True)["materials"][0]["extras"], {"mine": 1})
+        self.assertNotIn("extras", self.export(warned=True)["materials"][0])
         self.assertEqual([key for key in self.material.keys() if key.startswith("knurl")], [])
 
     def test_a_preset_is_the_material_of_the_list(self):
@@ -132,7 +72,7 @@ class Extension(unittest.TestCase):
         self.material["knurl_stiffness"] = 300.0
         self.assertTrue(self.material.knurl_on)
         self.assertAlmostEqual(self.material.knurl_ridges, 1.0, places=6)
-        self.export(True)
+        self.export(export_extras=True)
         self.assertEqual(inspect(self.path)[0][0]["material"]["spatial_frequency"], [1000.0, 0.0])
 
     def test_a_nested_tag_of_another_importer_is_shown_and_edited_whole(self):
@@ -165,22 +105,26 @@ class Extension(unittest.TestCase):
     def test_feel_runs_the_tool_on_an_export(self):
         program = os.path.join(self.folder.name, "tool")
         with open(program, "w", encoding="utf-8") as file:
-            file.write("#!/bin/sh\necho \"$@\"\n")
+            file.write("#!/bin/sh\nprintf 'http://127.0.0.1:1/?'\nprintf %s, \"$@\"\necho\n")
         self.addCleanup(os.environ.pop, "KNURL_TOOL", None)
         os.environ["KNURL_TOOL"] = program
         with self.assertRaisesRegex(RuntimeError, "expected the program"):
             bpy.ops.knurl.feel()  # it cannot be run yet
         os.chmod(program, 0o755)
-        made = []
-        popen = subprocess.Popen
-        with unittest.mock.patch("subprocess.Popen", lambda *args, **named: made.append(popen(*args, **named)) or made[0]):
-            self.assertEqual(bpy.ops.knurl.feel(), {"FINISHED"})
-        self.assertEqual(made[0].wait(10), 0)
-        scene = made[0].args[2]
-        self.addCleanup(shutil.rmtree, os.path.dirname(scene))
+        feel = sys.modules[NAME + ".feel"]
+        opened = []
+        self.addCleanup(setattr, feel, "_open", feel._open)
+        feel._open = opened.append
+        self.assertEqual(bpy.ops.knurl.feel(), {"FINISHED"})
+        (process, folder, _), = feel._running
+        scene = os.path.join(folder, "scene.glb")
+        self.assertEqual(process.wait(10), 0)
         self.assertEqual(json_of(scene)["asset"]["version"], "2.0")
         with open(scene + ".log", encoding="utf-8") as log:
-            self.assertEqual(log.read(), f"run {scene} --view\n")
+            self.assertEqual(log.read(), f"http://127.0.0.1:1/?run,{scene},--view,\n")
+        self.assertIsNone(feel._look())  # as Blender's timer does
+        self.assertEqual(opened, [f"http://127.0.0.1:1/?run,{scene},--view,"])
+        self.assertFalse(os.path.exists(folder))
 
     def test_it_can_be_disabled_and_enabled_again(self):
         for _ in range(2):
@@ -189,16 +133,41 @@ class Extension(unittest.TestCase):
             addon_utils.enable(NAME)
             self.assertFalse(self.material.knurl_on)
 
+    def warnings(self, owner=None):
+        return sys.modules[NAME + ".panel"].warnings_of(owner or self.material, self.object, bpy.context.evaluated_depsgraph_get())
+
     def test_warnings_name_what_cannot_be_felt(self):
-        warnings_of = sys.modules[NAME + ".panel"].warnings_of
         self.material.knurl_on = True
-        self.assertEqual(warnings_of(self.material, self.object.data), [])
+        self.assertEqual(self.warnings(), [])
         self.material.knurl_ridges, self.material.knurl_hardness = 0.1, 900.0
         self.object.data.uv_layers.remove(self.object.data.uv_layers[0])
-        self.assertEqual(len(warnings_of(self.material, self.object.data)), 3)
+        self.object.data.update()
+        bpy.context.view_layer.update()
+        self.assertEqual([sentence[:9] for sentence in self.warnings()], ["Ridges fi", "Stiffer t", "No UVs: r"])
 
+    def test_a_warning_tells_how_uvs_stretch_as_inspect_does(self):
+        self.material.knurl_on = True
+        bpy.ops.mesh.primitive_grid_add(x_subdivisions=2, y_subdivisions=1, size=0.1)
+        self.object = bpy.context.object
+        self.object.data.materials.append(self.material)
+        for at in self.object.data.uv_layers[0].data:
+            at.uv[0] = max(0.0, at.uv[0] - 0.45)  # the left half has a tenth of the uvs
+        said, = self.warnings()
+        felt = self.inspected()
+        self.assertIn(f"UVs stretch: ridges are {1000.0 / felt[1]:.2g} to {1000.0 / felt[0]:.2g} mm apart", said)
+        self.material.knurl_play = "S2"  # follows the velocity
+        self.assertEqual(self.warnings(), [])
 
-if __name__ == "__main__":
-    result = unittest.main(argv=sys.argv[:1], exit=False, verbosity=2).result
-    sys.stderr.flush()
-    os._exit(0 if result.wasSuccessful() else 1)  # bpy 4.2 as a module crashes when Python ends
+    def inspected(self):
+        """Ridges per metre, least and most, in a warning of `knurl inspect`."""
+        self.export(warned=True)
+        found = re.search(r"are felt as ([0-9.e+]+) to ([0-9.e+]+)/m", inspect(self.path)[1])
+        return float(found[1]), float(found[2])
+
+    def test_a_palette_and_modifiers_are_warned_of(self):
+        self.material.knurl_on = True
+        self.object.data.uv_layers[0].data.foreach_set("uv", [0.5] * 8)
+        self.object.modifiers.new("thick", "SOLIDIFY")
+        self.object.data.update()
+        bpy.context.view_layer.update()
+        self.assertEqual([sentence[:9] for sentence in self.warnings()], ["UVs have ", "Modifiers"])

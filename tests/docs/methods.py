@@ -97,7 +97,7 @@ def scene_py(text, known, default):
     return re.search(r"method: ([^.]*), or None\.", text)[1], ", ".join(f'"{name}"' for name in known.values())
 
 
-def panel_py(text, known, default):
+def properties_py(text, known, default):
     return re.findall(r'\n        \("(\w+)", "\1", ', text), list(known.values())
 
 
@@ -115,7 +115,7 @@ def tagging(text, known, default):
 LISTS = {
     "assets/knurl_extras.schema.json": schema,
     "assets/README.md": assets,
-    "bindings/blender/knurl/panel.py": panel_py,
+    "bindings/blender/knurl/properties.py": properties_py,
     "bindings/godot/addons/knurl/csharp/Knurl.cs": knurl_cs,
     "bindings/godot/addons/knurl/tags.gd": tags_gd,
     "bindings/godot/doc_classes/KnurlGrating.xml": grating_xml,
@@ -152,7 +152,7 @@ def completed(path, text, known, fresh, default):
     text = text.replace(", ".join(f'"{n}"' for n in former), ", ".join(f'"{n}"' for n in names))
     text = text.replace(",".join(map(title, former)) + '"', ",".join(map(title, names)) + '"')
     rows = {
-        "bindings/blender/knurl/panel.py": (r'\n        \("(\w+)", "\1", [^\n]*', lambda n, m:
+        "bindings/blender/knurl/properties.py": (r'\n        \("(\w+)", "\1", [^\n]*', lambda n, m:
             f'\n        ("{m}", "{m}", "{says[m.upper()]}"),'),
         "bindings/godot/addons/knurl/tags.gd": (r'"\w+": \d+(?=\})', lambda n, m: f', "{m}": {n}'),
         "bindings/godot/doc_classes/KnurlGrating.xml": (r'\n\t\t<constant [^\n]*enum="Method">[^\n]*', lambda n, m:
@@ -195,7 +195,7 @@ def self_test():
     last = max(known)
     others = {"a new method": ({**known, last + 1: "other"}, default), "another name": ({**known, last: "other"}, default),
               "other numbers": ({n + 1: name for n, name in known.items()}, default + 1)}
-    by_name_only = {"assets/knurl_extras.schema.json", "assets/README.md", "bindings/blender/knurl/panel.py",
+    by_name_only = {"assets/knurl_extras.schema.json", "assets/README.md", "bindings/blender/knurl/properties.py",
                     "bindings/python/knurl/scene.py", "docs/tagging.md"}
     return [f"{path}: {what} is not noticed" for what, (table, chosen) in others.items() for path in LISTS
             if not check(path, table, chosen) and not (what == "other numbers" and path in by_name_only)]

@@ -1,5 +1,5 @@
 """Knurl in Blender: ridges on materials and objects, in mm, and in glTF files. SPDX-License-Identifier: MIT"""
-from . import panel
+from . import feel, overlay, panel, properties
 from .gltf import glTF2ExportUserExtension, glTF2ImportUserExtension  # found by the glTF add-on under these names
 
 bl_info = {  # Blender 3.4 to 4.1; from 4.2 on blender_manifest.toml counts
@@ -14,10 +14,14 @@ bl_info = {  # Blender 3.4 to 4.1; from 4.2 on blender_manifest.toml counts
 
 __all__ = ["glTF2ExportUserExtension", "glTF2ImportUserExtension", "register", "unregister"]
 
+PARTS = (properties, overlay, feel, panel)
+
 
 def register():
-    panel.register()
+    for part in PARTS:
+        part.register()
 
 
 def unregister():
-    panel.unregister()
+    for part in reversed(PARTS):
+        part.unregister()

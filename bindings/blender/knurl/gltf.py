@@ -3,12 +3,14 @@ SPDX-License-Identifier: MIT"""
 from . import tag
 
 
-def _export(made, owner):
+def _export(made, owner, settings):
     if made is None or owner is None:
         return
     extras = {key: value for key, value in (made.extras or {}).items() if key != "knurl" and not key.startswith(tag.PREFIX)}
     found = tag.read(owner)
     if found:
+        if "axis" in found and not settings.get("gltf_yup", True):
+            found["axis"] = tag.turned(found["axis"], False)
         extras["knurl"] = found
     made.extras = extras or None
 
@@ -26,14 +28,14 @@ def _import(loaded, owner):
 class glTF2ExportUserExtension:  # pylint: disable=invalid-name
     """Writes extras.knurl, in the nested form."""
 
-    def gather_material_hook(self, gltf2_material, blender_material, _settings):
-        _export(gltf2_material, blender_material)
+    def gather_material_hook(self, gltf2_material, blender_material, export_settings):
+        _export(gltf2_material, blender_material, export_settings)
 
-    def gather_mesh_hook(self, gltf2_mesh, blender_mesh, *_rest):  # later parameters differ between versions
-        _export(gltf2_mesh, blender_mesh)
+    def gather_mesh_hook(self, gltf2_mesh, blender_mesh, *rest):  # parameters between them differ between versions
+        _export(gltf2_mesh, blender_mesh, rest[-1])
 
-    def gather_node_hook(self, gltf2_node, blender_object, _settings):
-        _export(gltf2_node, blender_object)
+    def gather_node_hook(self, gltf2_node, blender_object, export_settings):
+        _export(gltf2_node, blender_object, export_settings)
 
 
 class glTF2ImportUserExtension:  # pylint: disable=invalid-name

@@ -17,16 +17,17 @@ def _plain(value):
 
 
 def read(owner):
-    """The tag in the nested form, or None. A nested tag, as an importer leaves it, counts if there is no flat one."""
-    tag = {key: _plain(owner[PREFIX + key]) for key in KEYS if PREFIX + key in owner}
+    """The tag in the nested form, or None. A nested tag, as an importer leaves it, counts if there is no flat one. Keys that
+    this version does not know are kept."""
+    tag = {key[len(PREFIX):]: _plain(owner[key]) for key in owner.keys() if key.startswith(PREFIX)}
     if not tag and hasattr(owner.get("knurl"), "to_dict"):
-        nested = owner["knurl"].to_dict()
-        tag = {key: nested[key] for key in KEYS if key in nested}
+        tag = owner["knurl"].to_dict()
     if not tag:
         return None
     if "smooth" in tag:
         tag["smooth"] = bool(tag["smooth"])
-    return {"version": 1, **tag}
+    known = {key: tag.pop(key) for key in ("version", *KEYS) if key in tag}
+    return {"version": 1, **known, **tag}
 
 
 def write(owner, tag):
@@ -34,9 +35,12 @@ def write(owner, tag):
     for key in list(owner.keys()):
         if key == "knurl" or key.startswith(PREFIX):
             del owner[key]
-    for key in KEYS:
-        if tag and key in tag:
-            owner[PREFIX + key] = tag[key]
+    for key, value in (tag or {}).items():
+        if (key, value) != ("version", 1):
+            try:
+                owner[PREFIX + key] = value
+            except TypeError:
+                pass  # null, or a mixed list: no custom property can hold it, and no version of Knurl has such a key
 
 
 def get(owner, key, default):
@@ -53,10 +57,24 @@ def put(owner, key, value):
         owner[PREFIX + key] = value
 
 
-def frequencies(owner):
+def merged(*owners):
+    """The tag that counts for a mesh: its material's, the mesh's and the object's, later ones first; {} if there is none."""
+    found = {}
+    for owner in owners:
+        found.update((owner and read(owner)) or {})
+    return found
+
+
+def frequencies(tag):
     """Cycles per metre along x and y."""
-    value = get(owner, "spatial_frequency", 0.0)
+    value = tag.get("spatial_frequency", 0.0)
     return list(value) if isinstance(value, list) else [float(value), 0.0]
+
+
+def turned(axis, to_gltf):
+    """A direction from glTF's axes, in which it is stored, to Blender's; to_gltf: back."""
+    x, y, z = axis
+    return [x, z, -y] if to_gltf else [x, -z, y]
 
 
 def materials():
