@@ -8,7 +8,7 @@ library=$1
 project=$2
 rm -rf "$project"
 mkdir -p "$project/.godot" "$project/addons"
-cp "$here"/../../samples/godot/* "$project/"
+cp -r "$here"/../../samples/godot/* "$project/"
 cp "$here/../../assets/knurled_handle.glb" "$project/"
 cp -r "$here/addons/knurl" "$project/addons/"
 install -D "$library" "$project/addons/knurl/bin/$(basename "$library")"

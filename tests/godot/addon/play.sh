@@ -249,6 +249,10 @@ toys) # the sample in which things move: a roller turns under the finger, a marb
     # 0.02 m x 1 rad/s x 500 ridges/m = 10 ridges a second, of the game's, which a slow machine stretches
     grep -E '^toys: ([5-9]|1[0-5]) ridges a second, marble [1-9][0-9]* mm, drawer [1-9][0-9]* mm$' "$log"
     ;;
+recipes) # small scenes, each with one feature
+    "$root/bindings/godot/demo.sh" "$library" "$project"
+    play_script "$case" "${headless[@]}"
+    ;;
 pointer) # the sample, felt with the mouse
     "$root/bindings/godot/demo.sh" "$library" "$project"
     play_script "$case" xvfb-do godot --rendering-driver opengl3 --audio-driver Dummy --resolution 1280x720
