@@ -8,6 +8,7 @@ import sys
 
 import yaml
 
+import godot
 import headers
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -65,6 +66,7 @@ def main(folder):
     found = headers.pages({path.stem: path.read_text(encoding="utf-8") for path in sorted((ROOT / INCLUDE).glob("*.h"))
                            if path.stem != "knurl"})
     reference = {f"reference/{name}.md": text for name, text in found.items()}
+    reference["reference/godot.md"] = godot.page()
     listed = [page for entries in nav.values() for entry in entries for page in entry.values()]
     nav["Reference"][1:1] = [{f"{name}.h": f"reference/{name}.md"} for name in found if name != "index"]
     pictures, staged = set(), {*listed, *reference}
