@@ -167,6 +167,21 @@ release_archive() {
         { tail -n 20 "$log" >&2; exit 1; }
 }
 
+# Makes the Python package's own source archive, with the same bytes each time, and unpacks it into build/python-source.
+# usage: release_python_source OUT.tar.gz FOLDER     FOLDER: bindings/python in a copy of the sources, which is written to
+release_python_source() {
+    local made=build/python-archive name
+    name=$(basename "$1" .tar.gz)
+    rm -rf "$made" build/python-source
+    mkdir -p "$made"
+    (cd "$2" && /usr/bin/python3 setup.py -q sdist --dist-dir "$OLDPWD/$made") >build/package.log 2>&1 ||
+        { tail -n 20 build/package.log >&2; exit 1; }
+    tar -C "$made" -xf "$made/$name.tar.gz"
+    tar -C "$made" --sort=name --mtime="@$SOURCE_DATE_EPOCH" --owner=0 --group=0 --numeric-owner \
+        --mode=u+rw,go+r-w -c "$name" | gzip -9 -n >"$1"
+    mv "$made/$name" build/python-source
+}
+
 # Builds the wheel, from build/python-source. usage: release_wheel OUT ARCH [OPTION...]: as above
 release_wheel() {
     local out=$1 arch=$2 log=build/package.log
@@ -217,9 +232,7 @@ release() {
     source=$out/$name-source.tar.gz
     git archive --prefix="$name/" HEAD | gzip -9 -n >"$source"
     with_progress 'building Debian packages' "$log" packages/debian.sh "$out" "$source" "$version" build/debian || { tail -n 20 "$log" >&2; exit 1; }
-    rm -rf build/python-source # the Python package's own source archive, from which its wheels are built
-    (cd "build/debian/$name/bindings/python" && /usr/bin/python3 setup.py -q sdist --dist-dir "$out") >"$log" 2>&1 &&
-        mkdir build/python-source && tar -C build/python-source --strip-components=1 -xf "$out/$name.tar.gz" || { tail -n 20 "$log" >&2; exit 1; }
+    release_python_source "$out/$name.tar.gz" "build/debian/$name/bindings/python"
     release_linux "$out" "$version"
     package_godot
     package_unity
@@ -254,7 +267,7 @@ check_release() {
     rm -rf "$again"
     git clone -q . "$again"
     mkdir -p "$again/build/debian11" # reuse downloads
-    ln -s "$PWD/build/windows" "$PWD/build/zig" "$PWD/build/mirror-venv" "$again/build/"
+    ln -s "$PWD/build/windows" "$PWD/build/zig" "$PWD/build/mirror-venv" "$PWD/build/docs-venv" "$again/build/"
     ln -s "$PWD/build/debian11/root" "$again/build/debian11/root"
     KNURL_GODOT_ROOT=$GODOT_ENGINE CCACHE_DISABLE=1 "$again/run" release
     if ! diff "$1/SHA256SUMS" "$again/build/${1##*/}/SHA256SUMS"; then
