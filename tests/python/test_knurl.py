@@ -44,7 +44,7 @@ class Module(unittest.TestCase):
         self.assertEqual(counts["ticks"], 1000)
 
     def test_even_sensation_lowers_every_height_by_its_gain(self):
-        along = np.arange(200) * 0.0002 # 200 ridges a second: a gain of 0.40, as samples/study/README.md has it
+        along = np.arange(200) * 0.0002 # 200 ridges a second: a gain of 0.40, as samples/study/felt.md has it
         heights = {}
         for even in ("off", "model", "response"):
             scene = knurl.Scene()

@@ -107,7 +107,7 @@ def _false_share(power: np.ndarray, ridges: np.ndarray) -> float:
 
 def steady(values: ArrayLike, rate: float, frequency: float) -> Dict[str, float]:
     """Metrics of the signal of ridges that pass at `frequency` Hz, with the names and definitions of the study
-    `tradeoff` (samples/study/README.md), in the unit of `values` unless noted. Needs at least 50 ms and one cycle.
+    `tradeoff` (samples/study/tradeoff.md), in the unit of `values` unless noted. Needs at least 50 ms and one cycle.
 
     false_tones, felt_false_tones: the share (0 to 1) of the power, below rate / 2 or as felt, that is farther than 5 %
     of the frequency (at least 4 Hz) from each of its odd multiples. level: the line at the frequency; a square wave of
