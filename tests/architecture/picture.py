@@ -9,8 +9,8 @@ BOX = 40  # height of a box with a title and a line below it
 # Module: left, top, right, bottom, its purpose. Modules without boxes list their units.
 MODULES = {
     "loop": (16, 72, 304, 146, "the 1 kHz thread: read, tick, write"),
-    "audio": (316, 72, 474, 146, "a tick's sound"),
-    "gltf": (482, 72, 928, 146, "a file becomes a scene"),
+    "audio": (316, 72, 510, 146, "a tick, heard and felt"),
+    "gltf": (518, 72, 928, 146, "a file becomes a scene"),
     "device": (16, 178, 146, 456, "any device"),
     "scene": (172, 178, 928, 508, "folders surface, proxy, guard, hip, scene, stroke"),
     "motion": (16, 472, 146, 566, "positions to speeds"),

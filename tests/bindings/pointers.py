@@ -73,6 +73,7 @@ VALUES = {
     "knurl_session_next_event.session": "f->played_session",
     "knurl_session_update.session": "f->played_session",
     "knurl_audio_take.audio": "f->audio",
+    "rumble double *": "f->out",
     "knurl_audio_fill.samples": "f->history",
     "knurl_audio_fill.count": "1",
     "knurl_audio_create.audio": "&f->new_audio",

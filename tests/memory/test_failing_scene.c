@@ -310,7 +310,9 @@ static knurl_result call_audio_create(void) {
     const knurl_result result = knurl_audio_create(NULL, &audio);
     if (!result) {
         knurl_audio_take(&output, audio);
+        double rumble[2];
         knurl_audio_fill(audio, samples, 64);
+        return knurl_audio_get_rumble(audio, rumble);
     }
     return result;
 }

@@ -36,6 +36,20 @@ class Effects(unittest.TestCase):
         scene.set_effects()
         self.assertEqual(scene.tick(np.zeros((1, 3)))["force"].any(), False)
 
+    def test_a_coil_has_the_force_of_notches_and_the_motors_their_band(self):
+        scene = free_scene()
+        scene.set_effects([knurl.Effect("detent", axis=(1, 0, 0), stiffness=500.0, damping=0.0, spacing=0.002)])
+        t = np.arange(3000) / 1000.0
+        ticks = scene.tick(np.column_stack([0.2 * t, 0 * t, 0 * t])) # 100 Hz
+        samples, rumble = knurl.coil(ticks)
+        size = 500.0 * 0.002 / (2 * np.pi)
+        self.assertEqual(len(samples), 144000)
+        line = 2.0 * abs(np.exp(-2j * np.pi * 100.0 * np.arange(48000) / 48000.0) @ samples[-48000:]) / 48000
+        self.assertAlmostEqual(line, size, delta=0.03 * size) # within 0.2 dB
+        w = np.tan(np.pi * 0.1) / np.tan(np.pi * 0.08) # Butterworth filters of second order at 80 Hz
+        for motor, gain in enumerate((1.0, w * w) / np.sqrt(1.0 + w**4)):
+            self.assertAlmostEqual(np.sqrt((rumble[-1000:, motor]**2).mean()), gain * size, delta=0.01 * size)
+
     def test_the_defaults_are_the_librarys(self):
         made = knurl.ffi.new("knurl_effect *")
         knurl.check(knurl.lib.knurl_effect_prepare(knurl.lib.KNURL_EFFECT_LINE, made))

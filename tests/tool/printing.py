@@ -19,7 +19,7 @@ WRITERS = {
     "samples/knurl/sound.c": "writes samples of sound",
 }
 # Small programs for readers: of text they print the library's messages and names, which have passed knurl_text_line().
-EXAMPLES = ("samples/hello_grating.c", "samples/feel_scene.c", "samples/slider.c", "samples/touch_grating.c", "samples/conform/conform.c")
+EXAMPLES = ("samples/hello_grating.c", "samples/feel_scene.c", "samples/slider.c", "samples/coil.c", "samples/touch_grating.c", "samples/conform/conform.c")
 
 READERS = ("samples/draw_run.py", "samples/study/plot.py")  # of files that others made; they print by one_line() or
 CLEAN = {"BadInput", "ImportError"}  # messages of these exceptions

@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "f6e8a2748c5d8e39"
+#define KNURL_UNITY_INTERFACE "74e8abcd7df5c538"
 
 /** The mirrored structs, as C# lays them out: STRUCT(type, bytes), FIELD(type, field, name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
@@ -181,12 +181,14 @@
     FIELD(knurl_hip_contact, normal, "normal", 32, 24) \
     FIELD(knurl_hip_contact, depth, "depth", 56, 8) \
     FIELD(knurl_hip_contact, reserved, "reserved", 64, 48) \
-    STRUCT(knurl_audio_desc, 32) \
+    STRUCT(knurl_audio_desc, 40) \
     FIELD(knurl_audio_desc, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_audio_desc, is_offline, "is_offline", 4, 4) \
     FIELD(knurl_audio_desc, update_rate_hz, "update_rate_hz", 8, 8) \
     FIELD(knurl_audio_desc, sample_rate_hz, "sample_rate_hz", 16, 8) \
     FIELD(knurl_audio_desc, latency_s, "latency_s", 24, 8) \
+    FIELD(knurl_audio_desc, voice, "voice", 32, 4) \
+    FIELD(knurl_audio_desc, reserved, "reserved", 36, 4) \
     STRUCT(knurl_device_info, 200) \
     FIELD(knurl_device_info, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_device_info, reserved, "reserved", 4, 4) \

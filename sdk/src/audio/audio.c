@@ -1,7 +1,8 @@
-/* The sound of a grating. The haptic thread writes a ring of ticks, the audio thread reads it: each tick is a step over
- * the grating and a loudness. SPDX-License-Identifier: MIT */
+/* What a HIP feels, as a signal. The haptic thread writes a ring of ticks, the audio thread reads it: each tick is a
+ * step over the grating and a loudness, for a coil also a force. SPDX-License-Identifier: MIT */
 #include <knurl/audio.h>
 
+#include "audio/coil.h"
 #include "audio/loudness.h"
 #include "audio/wave.h"
 #include "base/atomic.h"
@@ -25,6 +26,7 @@
 typedef struct audio_tick {
     double step[2];  /* cycles since the previous tick */
     double loudness; /* 0 to 1 */
+    double force;    /* N */
 } audio_tick;
 
 struct knurl_audio {
@@ -40,16 +42,19 @@ struct knurl_audio {
     double due[2]; /* cycles passed but not queued yet */
     double share;  /* part of `due` queued per tick */
     uint32_t in_contact;
+    knurl_rumble rumble; /* its powers are read by any thread */
     /* used by the audio thread only */
     uint32_t plays; /* 1: enough ticks were queued to begin */
     double at;      /* between tick `read` and the next, 0 to 1 */
     double place[2];
     double level;
     knurl_wave_filter filter;
+    knurl_coil coil;
+    uint64_t pushed; /* ticks given to the coil */
 };
 
 void knurl_audio_desc_init(knurl_audio_desc *desc, uint32_t size) {
-    const knurl_audio_desc defaults = {sizeof defaults, 0, 1000.0, 48000.0, 0.01};
+    const knurl_audio_desc defaults = {sizeof defaults, 0, 1000.0, 48000.0, KNURL_DEFAULT, KNURL_VOICE_EAR, 0};
     knurl_desc_write(&defaults, sizeof defaults, desc, size);
 }
 
@@ -59,6 +64,23 @@ static knurl_result check(const char *key, const char *unit, double value, doubl
                : knurl_fail(KNURL_ERROR_ARGUMENT, "%s: expected %g to %g %s, found %g", key, least, most, unit, value);
 }
 
+static knurl_result check_desc(const knurl_audio_desc *d) {
+    knurl_result result =
+        check("update_rate_hz", "Hz", d->update_rate_hz, KNURL_UPDATE_RATE_MIN, KNURL_UPDATE_RATE_MAX);
+    if (!result && d->is_offline > 1) {
+        result = knurl_fail(KNURL_ERROR_ARGUMENT, "is_offline: expected 0 or 1, found %u", (unsigned)d->is_offline);
+    }
+    result = result ? result : check("sample_rate_hz", "Hz", d->sample_rate_hz, 8000.0, 192000.0);
+    result = result ? result : check("latency_s", "s", d->latency_s, 0.0, 0.1);
+    if (!result && ((d->voice != KNURL_VOICE_EAR && d->voice != KNURL_VOICE_COIL) || d->reserved != 0)) {
+        result =
+            knurl_fail(KNURL_ERROR_ARGUMENT,
+                       "voice: expected %d (KNURL_VOICE_EAR) or %d (KNURL_VOICE_COIL), and reserved 0, found %d, %u",
+                       KNURL_VOICE_EAR, KNURL_VOICE_COIL, (int)d->voice, (unsigned)d->reserved);
+    }
+    return result;
+}
+
 knurl_result knurl_audio_create(const knurl_audio_desc *desc, knurl_audio **audio) {
     knurl_audio_desc d;
     if (KNURL_IS_NULL(audio)) {
@@ -66,13 +88,10 @@ knurl_result knurl_audio_create(const knurl_audio_desc *desc, knurl_audio **audi
     }
     knurl_audio_desc_init(&d, sizeof d);
     knurl_result result = desc ? knurl_desc_read("knurl_audio_desc", desc, &d, sizeof d) : KNURL_OK;
-    result =
-        result ? result : check("update_rate_hz", "Hz", d.update_rate_hz, KNURL_UPDATE_RATE_MIN, KNURL_UPDATE_RATE_MAX);
-    if (!result && d.is_offline > 1) {
-        result = knurl_fail(KNURL_ERROR_ARGUMENT, "is_offline: expected 0 or 1, found %u", (unsigned)d.is_offline);
+    if (d.latency_s == KNURL_DEFAULT) {
+        d.latency_s = d.voice == KNURL_VOICE_COIL ? 0.001 : 0.01;
     }
-    result = result ? result : check("sample_rate_hz", "Hz", d.sample_rate_hz, 8000.0, 192000.0);
-    result = result ? result : check("latency_s", "s", d.latency_s, 0.0, 0.1);
+    result = result ? result : check_desc(&d);
     if (result) {
         return result;
     }
@@ -88,6 +107,8 @@ knurl_result knurl_audio_create(const knurl_audio_desc *desc, knurl_audio **audi
     a->share = 1.0 - exp(-1.0 / (SMOOTH_S * d.update_rate_hz));
     knurl_loudness_init(&a->loudness, d.update_rate_hz);
     knurl_wave_filter_init(&a->filter, d.sample_rate_hz);
+    knurl_rumble_init(&a->rumble, d.update_rate_hz);
+    knurl_coil_init(&a->coil, d.sample_rate_hz);
     a->handle = KNURL_HANDLE_AUDIO;
     *audio = a;
     return KNURL_OK;
@@ -130,7 +151,8 @@ void knurl_audio_take(const knurl_tick_output *output, void *audio) {
     const double rate = a->desc.update_rate_hz;
     const double likely = output->temporal_frequency / rate;
     const uint32_t in_contact = output->flags & KNURL_TICK_CONTACT;
-    audio_tick tick = {{0.0, 0.0}, 0.0};
+    audio_tick tick = {{0.0, 0.0}, 0.0, 0.0};
+    tick.force = knurl_rumble_update(&a->rumble, output);
     tick.loudness = fmin(1.0, knurl_loudness_update(&a->loudness, output) / FULL_SCALE);
     for (int i = 0; i < 2; i++) {
         const int moves = in_contact && a->in_contact;
@@ -169,7 +191,7 @@ static double choose_pace(knurl_audio *a, uint64_t written, uint32_t count) {
     return fabs(lag) < EVEN_TICKS ? pace : pace * (1.0 + fmax(-DRIFT_MAX, fmin(DRIFT_MAX, lag / (rate * DRIFT_S))));
 }
 
-/* Advances by `ticks`, less than one, if that many are queued: the playing tick and one more. */
+/* Advances by `ticks` if that many are queued: the playing tick and one more. */
 static void advance(knurl_audio *a, uint64_t written, double ticks) {
     while (ticks > SMALLEST && a->plays) {
         if (a->at > 1.0 - SMALLEST) {
@@ -207,17 +229,47 @@ static double find_level(knurl_audio *a) {
     return a->level;
 }
 
+static double next_for_ears(knurl_audio *a, uint64_t written, double ticks) {
+    for (int k = 0; k < KNURL_WAVE_OVERSAMPLING; k++) {
+        knurl_wave_filter_push(&a->filter, move(a, written, ticks / KNURL_WAVE_OVERSAMPLING));
+    }
+    return 0.5 * find_level(a) * knurl_wave_filter_pull(&a->filter);
+}
+
+/* The coil has the playing tick and the next. Those before skipped ones do not matter. */
+static double next_for_coil(knurl_audio *a, uint64_t written, double ticks) {
+    advance(a, written, ticks);
+    const uint64_t wanted = a->plays ? a->read + 2 : a->pushed;
+    if (wanted > a->pushed + KNURL_COIL_TAPS) {
+        a->pushed = wanted - KNURL_COIL_TAPS;
+    }
+    while (a->pushed < wanted) {
+        knurl_coil_push(&a->coil, a->ring[a->pushed++ % RING_TICKS].force);
+    }
+    return knurl_coil_pull(&a->coil, a->at);
+}
+
 void knurl_audio_fill(knurl_audio *a, float *samples, uint32_t count) {
     if (!KNURL_IS_HANDLE(a, AUDIO) || !samples || count == 0) {
         return;
     }
     const uint64_t written = knurl_load_acquire(&a->written);
-    const double ticks = choose_pace(a, written, count) / KNURL_WAVE_OVERSAMPLING;
+    const double ticks = choose_pace(a, written, count);
     for (uint32_t i = 0; i < count; i++) {
-        for (int k = 0; k < KNURL_WAVE_OVERSAMPLING; k++) {
-            knurl_wave_filter_push(&a->filter, move(a, written, ticks));
-        }
-        const double sample = 0.5 * find_level(a) * knurl_wave_filter_pull(&a->filter);
+        const double sample =
+            a->desc.voice == KNURL_VOICE_COIL ? next_for_coil(a, written, ticks) : next_for_ears(a, written, ticks);
         samples[i] = (float)fmax(-1.0, fmin(1.0, sample));
     }
+}
+
+/* --- any thread --- */
+
+knurl_result knurl_audio_get_rumble(const knurl_audio *audio, double rumble[2]) {
+    if (KNURL_BAD_HANDLE(audio, AUDIO) || KNURL_IS_NULL(rumble)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
+    for (int band = 0; band < 2; band++) {
+        rumble[band] = fmin(1.0, sqrt(2.0 * knurl_load_double(&audio->rumble.power[band])));
+    }
+    return KNURL_OK;
 }

@@ -41,8 +41,8 @@ double knurl_wave_mean(const double from[2], const double to[2]) {
     return sign * (1.0 - 2.0 * fabs(crossing(from[0], to[0]) - crossing(from[1], to[1])));
 }
 
-/* Modified Bessel function of the first kind, order 0, by its series. */
-static double bessel(double x) {
+/* By its series. */
+double knurl_wave_bessel(double x) {
     double term = 1.0;
     double sum = 1.0;
     for (int k = 1; k < 40; k++) {
@@ -61,7 +61,7 @@ void knurl_wave_filter_init(knurl_wave_filter *filter, double sample_rate_hz) {
     for (int i = 0; i < KNURL_WAVE_TAPS; i++) {
         const double t = i - middle; /* never 0: the number of taps is even */
         const double edge = t / (middle + 0.5);
-        filter->taps[i] = sin(PI * (PASSED + STOPPED) * t) / t * bessel(beta * sqrt(1.0 - edge * edge));
+        filter->taps[i] = sin(PI * (PASSED + STOPPED) * t) / t * knurl_wave_bessel(beta * sqrt(1.0 - edge * edge));
         sum += filter->taps[i];
     }
     for (int i = 0; i < KNURL_WAVE_TAPS; i++) {

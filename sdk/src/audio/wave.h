@@ -24,6 +24,9 @@ typedef struct knurl_wave_filter {
  * cycle or longer, which cannot be heard. */
 double knurl_wave_mean(const double from[2], const double to[2]) KNURL_NONBLOCKING;
 
+/* Modified Bessel function of the first kind, order 0, for Kaiser windows. */
+double knurl_wave_bessel(double x);
+
 void knurl_wave_filter_init(knurl_wave_filter *filter, double sample_rate_hz);
 
 void knurl_wave_filter_push(knurl_wave_filter *filter, double mean) KNURL_NONBLOCKING;

@@ -279,6 +279,8 @@ namespace Knurl
         public double update_rate_hz;
         public double sample_rate_hz;
         public double latency_s;
+        public int voice;
+        public uint reserved;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -685,7 +687,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>The result of knurl_unity_interface() of the library that this file was generated for.</summary>
-        internal const string Interface = "f6e8a2748c5d8e39";
+        internal const string Interface = "74e8abcd7df5c538";
 
         internal const string Version = "0.3.0";
 
@@ -812,6 +814,8 @@ namespace Knurl
         internal const int KNURL_TICK_ABSENT = 512;
         internal const int KNURL_TICK_SQUEEZED = 1024;
         internal const int KNURL_TICK_VISIT_LIMIT = 2048;
+        internal const int KNURL_VOICE_EAR = 0;
+        internal const int KNURL_VOICE_COIL = 1;
         internal const int KNURL_FAULT_LOST = 1;
         internal const int KNURL_FAULT_SILENT = 2;
         internal const int KNURL_FAULT_CORRUPT = 3;
@@ -1065,6 +1069,9 @@ namespace Knurl
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void knurl_audio_fill(knurl_audio* audio, float* samples, uint count);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_audio_get_rumble(knurl_audio* audio, double* rumble);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void knurl_device_info_init(knurl_device_info* info, uint size);
