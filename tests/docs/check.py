@@ -101,6 +101,15 @@ def packages_without_names():
                 yield f"docs/building.md: expected a row of names for {name}, found none"
 
 
+def pages_without_place():
+    """Pages of docs/ and of the studies that the site's sidebar lacks."""
+    sidebar = (ROOT / "docs/site/nav.yml").read_text(encoding="utf-8")
+    for page in sorted([*ROOT.glob("docs/*.md"), *ROOT.glob("samples/study/*.md")]):
+        name = str(page.relative_to(ROOT))
+        if f": {name}\n" not in sidebar:
+            yield f"docs/site/nav.yml: expected {name}, found no such page"
+
+
 def main():
     broken_links.count = 0
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -109,6 +118,7 @@ def main():
     problems += unknown_functions()
     problems += options_without_help()
     problems += packages_without_names()
+    problems += pages_without_place()
     if len(readme.encode()) > README_MOST:
         problems.append(f"README.md: expected at most {README_MOST} bytes, found {len(readme.encode())}")
     sample = (ROOT / SAMPLE).read_text(encoding="utf-8").split("README: begin */\n")[1].split("    /* README: end")[0]
