@@ -156,12 +156,11 @@ date_sources() {
 # Builds the archive for Linux. usage: release_archive OUT VERSION ARCH [OPTION...]: CMake's, for the toolchain
 release_archive() {
     local out=$1 name=knurl-$2-linux-$3 folder=build/archive-$3 log=build/package.log
-    local link=-DCMAKE_SHARED_LINKER_FLAGS=-Wl,--build-id
     shift 3
     CFLAGS="-ffile-prefix-map=$PWD=." CXXFLAGS="-ffile-prefix-map=$PWD=." \
         cmake -G Ninja -S . -B "$folder" -DCMAKE_BUILD_TYPE=Release -DCMAKE_C_FLAGS_RELEASE='-O3 -g1' \
         -DCMAKE_CXX_FLAGS_RELEASE='-O2 -g1' -DBUILD_SHARED_LIBS=ON -DBUILD_TESTING=OFF -DKNURL_VIEW=OFF \
-        -DCMAKE_INSTALL_LIBDIR=lib -DCMAKE_BUILD_RPATH_USE_ORIGIN=ON "$link" "${link/SHARED/EXE}" "$@" >"$log" 2>&1 &&
+        -DCMAKE_INSTALL_LIBDIR=lib -DCMAKE_BUILD_RPATH_USE_ORIGIN=ON "$@" >"$log" 2>&1 &&
         with_progress "building $name" "$log" cmake --build "$folder" &&
         packages/linux.sh "$out" "$name" "$folder" build/release/knurl build/docs/html >>"$log" 2>&1 ||
         { tail -n 20 "$log" >&2; exit 1; }
@@ -194,12 +193,12 @@ release_wheel() {
 # Both for this processor and for arm64, with compilers that old systems' C libraries are enough for, if they can be had.
 # usage: release_linux OUT VERSION
 release_linux() {
-    local arch zig="-DCMAKE_TOOLCHAIN_FILE=$PWD/cmake/zig.cmake"
+    local arch zig="-DCMAKE_TOOLCHAIN_FILE=$PWD/cmake/zig.cmake" link=-DCMAKE_SHARED_LINKER_FLAGS=-Wl,--build-id
     if prepare_debian11; then
-        release_archive "$1" "$2" x86_64 "-DCMAKE_TOOLCHAIN_FILE=$PWD/cmake/debian11.cmake"
+        release_archive "$1" "$2" x86_64 "-DCMAKE_TOOLCHAIN_FILE=$PWD/cmake/debian11.cmake" "$link" "${link/SHARED/EXE}"
     else
         echo "run: SKIPPED: the archive for glibc 2.31 (see above): it is built for this machine's" >&2
-        release_archive "$1" "$2" "$(uname -m)"
+        release_archive "$1" "$2" "$(uname -m)" "$link" "${link/SHARED/EXE}"
     fi
     if prepare_zig; then
         release_archive "$1" "$2" aarch64 "$zig" -DKNURL_ZIG_TARGET=aarch64-linux-gnu.2.28
