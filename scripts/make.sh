@@ -44,6 +44,15 @@ figures() {
     build/release/knurl "${DEMO[@]}" --fast --out build/study/sweep.csv --wav build/study/sweep.wav >build/study/sweep.json
     picture sweep plot.py build/study/sweep.csv
     title=
+    awk 'BEGIN { print "t,x,y,z"; for (i = 0; i <= 700; i++) # at 50 mm/s, 1 mm deep
+        printf "%.3f,%.5f,%.5f,0\n", i / 1000, 0.00005 * i - 0.0175, i < 100 ? -0.00001 * i : -0.001 }' >build/study/moving.csv
+    build/release/knurl run assets/plate_1d.glb --trace build/study/moving.csv --exact --fast --out build/study/moved.csv >build/study/moved.json
+    /usr/bin/python3 samples/study/moving.py build/study/moved.csv build/figures/moving.svg
+    if [ "$how" = --check ]; then
+        cmp build/figures/moving.svg assets/pictures/moving.svg || stale=1
+    elif [ "$how" = --update ]; then
+        cp build/figures/moving.svg assets/pictures/
+    fi
     picture sound sound.py build/study/sweep.{csv,wav}
     for name in signals coverage temporal device gratings preferences tradeoff velocity transitions smooth even stability failures; do
         echo "run: study $name"
