@@ -1,6 +1,7 @@
 // Settings of surface and device; links and the failures' catalogue set them. SPDX-License-Identifier: MIT
 import { PRESETS } from "./presets.js";
 import { $, scene, surface, tell } from "./page.js";
+import { showSwatches } from "./swatches.js";
 
 const METHODS = ["bandlimited", "S1", "S2", "bandlimited"];
 const SLIDERS = [["fsx", 0, 1], ["fsy", 1, 1], ["amplitude", 2, 1000], ["stiffness", 3, 1], ["friction", 4, 1]];
@@ -54,11 +55,14 @@ export class Settings {
     $("share").addEventListener("click", () => this.share());
     ["rate", "resolution"].forEach((id) => $(id).addEventListener("change", () => this.setDevice()));
     FEEL.forEach((id) => $(id).addEventListener("input", () => this.setFeel()));
+    showSwatches(async (feel) => {
+      await this.setFeel([...feel, Number($("method").value)]);
+      showFeel();
+    });
   }
 
-  async setFeel() {
+  async setFeel(feel = shownFeel()) {
     const index = Number($("surface").value);
-    const feel = shownFeel();
     const { error } = await this.simulation.ask("feel", { index, feel });
     if (error) {
       tell(error, true);

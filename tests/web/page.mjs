@@ -192,6 +192,25 @@ export const cases = {
     }
   },
 
+  async "a swatch gives the surface a material's own numbers and tells their sources"() {
+    const tab = await open();
+    const materials = JSON.parse(readFileSync(new URL("../../assets/materials.json", import.meta.url), "utf8")).materials;
+    const labels = await tab.locator("#materials button").evaluateAll((all) => all.map((swatch) => swatch.getAttribute("aria-label")));
+    assert.deepEqual(labels, materials.map(({ title }) => title));
+    for (const { title, tag, period, depth } of materials) {
+      await tab.click(`#materials button[aria-label="${title}"]`);
+      await tab.waitForFunction((words) => document.getElementById("material-text").textContent.startsWith(words), title);
+      assert.ok((await tab.textContent("#material-text")).includes(`Period: ${period}. Depth: ${depth}.`));
+      const { knurl } = JSON.parse(await tab.textContent("#extras"));
+      const close = (a, b) => assert.ok(Math.abs(a - b) <= 1e-9 * Math.abs(b), `${title}: ${a}, not ${b}`);
+      tag.spatial_frequency.forEach((value, i) => close(knurl.spatial_frequency[i], value));
+      ["amplitude", "stiffness", "friction"].forEach((key) => close(knurl[key], tag[key]));
+    }
+    await tab.focus("#friction");
+    await tab.keyboard.press("ArrowRight"); // steps again
+    assert.match(await tab.inputValue("#friction"), /^0\.\d5?$/);
+  },
+
   async "S1 pushes by a third of the amplitude at 333 Hz, and bandlimited does not"() {
     const tab = await open();
     await tab.selectOption("#preset", { label: "S1 pushes" });

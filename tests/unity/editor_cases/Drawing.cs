@@ -80,9 +80,26 @@ namespace Knurl.Cases
             KnurlGrating grating = MakeGrating(1000f);
             Draw(grating);
             Assert.AreEqual(new[] { "a", "b" },
-                GenericMenu.Shown.Items.Keys.Select(title => title.Split(':')[0]).ToArray());
-            GenericMenu.Shown.Items.Last().Value();
+                GenericMenu.Shown.Items.Keys.Take(2).Select(title => title.Split(':')[0]).ToArray());
+            GenericMenu.Shown.Items.ElementAt(1).Value();
             Assert.AreEqual(150f, grating.Stiffness);
+        }
+
+        [Test]
+        public void An_everyday_material_gives_a_grating_its_numbers_and_tells_its_sources()
+        {
+            EditorGUILayout.Answers["Preset"] = true;
+            KnurlGrating grating = MakeGrating(1000f);
+            Draw(grating);
+            string[] titles = GenericMenu.Shown.Items.Keys.Where(title => title.StartsWith("Everyday materials/"))
+                .ToArray();
+            Assert.AreEqual(29, titles.Length);
+            const string ruler = "Everyday materials/Engraved ruler: period 1 mm: its marks; depth 0.05 mm, a guess";
+            GenericMenu.Shown.Items[ruler]();
+            Assert.AreEqual(new Vector2(1000f, 0f), grating.SpatialFrequency);
+            Assert.AreEqual(0.000025f, grating.Amplitude);
+            Assert.AreEqual(800f, grating.Stiffness);
+            Assert.AreEqual(0.2f, grating.Friction);
         }
 
         static KnurlGrating Preset(string name)

@@ -9,6 +9,7 @@ const Standins := preload("standins.gd")
 var _gizmo: EditorNode3DGizmoPlugin
 var _post_import: EditorScenePostImportPlugin
 var _inspector: EditorInspectorPlugin
+var _picker: EditorInspectorPlugin
 var _export: EditorExportPlugin
 var _button: Button
 # The scripts below name Knurl's classes, so they are loaded only if the extension is.
@@ -45,6 +46,8 @@ func _enter_tree() -> void:
 	add_node_3d_gizmo_plugin(_gizmo)
 	_inspector = load(FOLDER + "inspector.gd").new()
 	add_inspector_plugin(_inspector)
+	_picker = load(FOLDER + "material_picker.gd").new()
+	add_inspector_plugin(_picker)
 	_button = Button.new()
 	_button.text = "Gratings"
 	_button.tooltip_text = "Draw the ridges of Knurl's surfaces where they will be felt."
@@ -69,6 +72,7 @@ func _exit_tree() -> void:
 	_show_gratings(false)
 	remove_control_from_container(CONTAINER_SPATIAL_EDITOR_MENU, _button)
 	_button.queue_free()
+	remove_inspector_plugin(_picker)
 	remove_inspector_plugin(_inspector)
 	remove_node_3d_gizmo_plugin(_gizmo)
 	remove_scene_post_import_plugin(_post_import)

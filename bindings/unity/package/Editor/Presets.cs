@@ -6,7 +6,7 @@ using UnityEngine;
 
 namespace Knurl.Editing
 {
-    /// <summary>The gratings that come with the package, as a drop-down button.</summary>
+    /// <summary>The gratings that come with the package, and everyday materials, as a drop-down button.</summary>
     internal static class Presets
     {
         internal const string Folder = "Packages/com.knurl.haptics/Presets";
@@ -27,6 +27,12 @@ namespace Knurl.Editing
         {
             return preset.name + ": " + Units.Frequency(preset.SpatialFrequency) + ", " +
                 Units.Millimetres(preset.Amplitude) + ", " + Units.Number(preset.Stiffness) + " N/m";
+        }
+
+        /// <summary>With where its numbers come from: "Ruler: period 1 mm: its marks; depth 0.05 mm, a guess".</summary>
+        internal static string Title(EverydayMaterial material)
+        {
+            return material.Title + ": period " + material.Period + "; depth " + material.Depth;
         }
 
         /// <summary>True if a grating belongs to the package: it cannot be edited, because that would change it for
@@ -74,6 +80,11 @@ namespace Knurl.Editing
             foreach (KnurlGrating preset in Load())
             {
                 menu.AddItem(new GUIContent(Title(preset).Replace('/', '\u2215')), false, () => chosen(preset));
+            }
+            foreach (EverydayMaterial material in EverydayMaterial.All)
+            {
+                menu.AddItem(new GUIContent("Everyday materials/" + Title(material).Replace('/', '\u2215')), false,
+                    () => chosen(material.Make()));
             }
             menu.ShowAsContext();
         }

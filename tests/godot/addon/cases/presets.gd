@@ -25,6 +25,13 @@ func _initialize() -> void:
 		var grating: Resource = load(FOLDER + pair[0] + ".tres")
 		checks.equal(grating.spatial_frequency, Vector2(pair[1], 0.0), pair[0])
 		checks.equal(grating.stiffness, 700.0, pair[0] + "'s stiffness")
+	var materials: Array[Dictionary] = load("res://addons/knurl/materials.gd").LIST
+	checks.equal(materials.size(), 29, "everyday materials")
+	for material: Dictionary in materials:
+		var grating: Resource = ClassDB.instantiate(&"KnurlGrating")
+		for key: String in ["spatial_frequency", "amplitude", "stiffness", "friction", "orientation"]:
+			grating.set(key, material[key])
+		checks.equal(warnings_of(grating), PackedStringArray(), material["title"] + "'s warnings")
 	var steel: Resource = ClassDB.instantiate(&"KnurlGrating")
 	steel.stiffness = 1e5
 	checks.check(not warnings_of(steel).is_empty(), "what is too stiff is warned of")

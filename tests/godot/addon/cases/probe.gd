@@ -29,6 +29,7 @@ func probe() -> void:
 		probe_rows(stage.get_node("KnurlDevice"))
 		await probe_help()
 		await probe_warnings(stage.get_node("KnurlSurface"))
+		await probe_materials()
 		await probe_limits(stage)
 		await probe_paint(stage)
 		checks.equal(
@@ -100,6 +101,28 @@ func probe_warnings(surface: Node) -> void:
 		func(label: Node) -> bool: return (label as Label).text == warning
 	)
 	checks.equal(labels.size(), 1, "the inspector shows '%s'" % warning)
+
+
+func probe_materials() -> void:
+	var grating: Resource = ClassDB.instantiate(&"KnurlGrating")
+	EditorInterface.edit_resource(grating)
+	await get_tree().create_timer(0.5).timeout
+	var buttons: Array[Node] = EditorInterface.get_inspector().find_children("*", "MenuButton", true, false).filter(
+		func(button: Node) -> bool: return (button as MenuButton).text == "Everyday Material"
+	)
+	checks.equal(buttons.size(), 1, "buttons for everyday materials")
+	var menu: PopupMenu = (buttons[0] as MenuButton).get_popup()
+	checks.equal(menu.item_count, 29, "everyday materials")
+	for index: int in menu.item_count:
+		if menu.get_item_text(index) == "Metal file, coarse":
+			checks.check("a guess (files have" in menu.get_item_tooltip(index), "a guess is called one")
+			menu.index_pressed.emit(index)
+	checks.equal(grating.spatial_frequency, Vector2(984.25, 0), "the file's ridges")
+	checks.check(is_equal_approx(grating.orientation, 0.4363), "the file's direction")
+	var undo: EditorUndoRedoManager = EditorInterface.get_editor_undo_redo()
+	undo.get_history_undo_redo(undo.get_object_history_id(grating)).undo()
+	checks.equal(grating.spatial_frequency, Vector2(1000, 0), "the ridges after undo")
+	checks.equal(grating.orientation, 0.0, "the direction after undo")
 
 
 ## No device runs here: surfaces are checked against the presets of the scene's devices.

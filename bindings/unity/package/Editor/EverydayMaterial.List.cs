@@ -1,0 +1,71 @@
+// Everyday materials. Written by assets/make/materials.py from assets/materials.json.
+// SPDX-License-Identifier: MIT
+using UnityEngine;
+
+namespace Knurl.Editing
+{
+    internal sealed partial class EverydayMaterial
+    {
+        internal static readonly EverydayMaterial[] All =
+        {
+            new EverydayMaterial("Bamboo mat", "4 mm, a guess",
+                "1.2 mm, a guess", new Vector2(250f, 0f), 0.0006f, 500f, 0.3f, 0f),
+            new EverydayMaterial("Braille cells, all dots raised", "2.34 mm (Library of Congress, Specification 800)",
+                "0.48 mm (Specification 800)", new Vector2(427.35f, 427.35f), 0.00024f, 500f, 0.3f, 0f),
+            new EverydayMaterial("Corrugated cardboard, C flute, one face open", "7.82 mm: 39 flutes per foot (Fibre Box Association)",
+                "3.6 mm (Fibre Box Association)", new Vector2(127.95f, 0f), 0.0018f, 300f, 0.5f, 0f),
+            new EverydayMaterial("Corrugated cardboard, E flute, one face open", "3.39 mm: 90 flutes per foot (Fibre Box Association)",
+                "1.2 mm (Fibre Box Association)", new Vector2(295.28f, 0f), 0.0006f, 300f, 0.5f, 0f),
+            new EverydayMaterial("Edge of a US dime", "0.477 mm: 118 reeds around 17.91 mm (US Mint)",
+                "0.15 mm, a guess", new Vector2(2097.2f, 0f), 7.5e-05f, 800f, 0.2f, 0f),
+            new EverydayMaterial("Edge of a US quarter", "0.640 mm: 119 reeds around 24.26 mm (US Mint)",
+                "0.2 mm, a guess", new Vector2(1561.4f, 0f), 0.0001f, 800f, 0.2f, 0f),
+            new EverydayMaterial("Comb", "1.5 mm, a guess",
+                "0.8 mm, a guess: a stylus does not reach the ground", new Vector2(666.7f, 0f), 0.0004f, 500f, 0.2f, 0f),
+            new EverydayMaterial("Corduroy", "2.31 mm: 11 wales per inch (the trade's standard is 10 to 12)",
+                "0.6 mm, a guess", new Vector2(433.07f, 0f), 0.0003f, 250f, 0.6f, 0f),
+            new EverydayMaterial("Pinwale corduroy", "1.27 mm: 20 wales per inch (pinwale is 16 to 23)",
+                "0.3 mm, a guess", new Vector2(787.4f, 0f), 0.00015f, 250f, 0.6f, 0f),
+            new EverydayMaterial("Grooved decking", "7 mm, a guess",
+                "1.6 mm, a guess", new Vector2(142.86f, 0f), 0.0008f, 700f, 0.4f, 0f),
+            new EverydayMaterial("Denim's twill lines", "0.8 mm, a guess",
+                "0.12 mm, a guess", new Vector2(1250f, 0f), 6e-05f, 300f, 0.5f, 1.1f),
+            new EverydayMaterial("Metal file, coarse", "1.02 mm: 25 teeth per inch, a guess (files have 20 to 250)",
+                "0.3 mm, a guess", new Vector2(984.25f, 0f), 0.00015f, 800f, 0.5f, 0.4363f),
+            new EverydayMaterial("Gear rack, module 0.5", "1.571 mm: pi times the module (ISO 53)",
+                "1.125 mm: 2.25 times the module (ISO 53)", new Vector2(636.62f, 0f), 0.00056f, 800f, 0.2f, 0f),
+            new EverydayMaterial("Loudspeaker grille", "3 mm, a guess",
+                "0.6 mm, a guess", new Vector2(333.33f, 333.33f), 0.0003f, 700f, 0.3f, 0f),
+            new EverydayMaterial("Wound guitar string", "0.33 mm, a guess at the wrap wire's diameter",
+                "0.1 mm, a guess", new Vector2(3030.3f, 0f), 5e-05f, 600f, 0.2f, 0f),
+            new EverydayMaterial("Diamond knurl (RGE 0.8)", "0.8 mm (DIN 82); here crossed at 90 degrees, in the standard at 60",
+                "0.4 mm: half the pitch, with a profile of 90 degrees (DIN 82)", new Vector2(1250f, 1250f), 0.0002f, 800f, 0.3f, 0.7854f),
+            new EverydayMaterial("Straight knurl (RAA 1)", "1 mm (DIN 82)",
+                "0.5 mm: half the pitch, with a profile of 90 degrees (DIN 82)", new Vector2(1000f, 0f), 0.00025f, 800f, 0.3f, 0f),
+            new EverydayMaterial("Lenticular print", "0.339 mm: 75 lenses per inch, a common sheet",
+                "0.06 mm, a guess", new Vector2(2952.8f, 0f), 3e-05f, 600f, 0.3f, 0f),
+            new EverydayMaterial("Ribbed rubber mat", "3 mm, a guess",
+                "1 mm, a guess", new Vector2(333.33f, 0f), 0.0005f, 250f, 0.9f, 0f),
+            new EverydayMaterial("Ribbon cable", "1.27 mm: conductors 0.05 inch apart",
+                "0.4 mm, a guess", new Vector2(787.4f, 0f), 0.0002f, 350f, 0.4f, 0f),
+            new EverydayMaterial("Engraved ruler", "1 mm: its marks",
+                "0.05 mm, a guess", new Vector2(1000f, 0f), 2.5e-05f, 800f, 0.2f, 0f),
+            new EverydayMaterial("Screw thread M3", "0.5 mm (ISO 261)",
+                "0.307 mm: 0.6134 times the pitch (ISO 68-1)", new Vector2(2000f, 0f), 0.00015f, 800f, 0.2f, 0f),
+            new EverydayMaterial("Screw thread M6", "1 mm (ISO 261)",
+                "0.613 mm: 0.6134 times the pitch (ISO 68-1)", new Vector2(1000f, 0f), 0.00031f, 800f, 0.2f, 0f),
+            new EverydayMaterial("Mosaic tiles", "27 mm, a guess: tiles of 25 mm and joints of 2",
+                "1 mm, a guess", new Vector2(37.04f, 37.04f), 0.0005f, 800f, 0.2f, 0f),
+            new EverydayMaterial("Timing belt GT2, 2 mm", "2 mm (its name)",
+                "0.76 mm (a maker's drawing, SDP/SI D265)", new Vector2(500f, 0f), 0.00038f, 400f, 0.6f, 0f),
+            new EverydayMaterial("Timing belt T5", "5 mm (its name)",
+                "1.2 mm (a maker's drawing, SDP/SI D265)", new Vector2(200f, 0f), 0.0006f, 400f, 0.6f, 0f),
+            new EverydayMaterial("Toy brick's studs", "8 mm: the grid of common toy bricks",
+                "1.7 mm, a guess", new Vector2(125f, 125f), 0.00085f, 700f, 0.3f, 0f),
+            new EverydayMaterial("Woven belt", "2.2 mm, a guess",
+                "0.4 mm, a guess", new Vector2(454.55f, 454.55f), 0.0002f, 350f, 0.6f, 0f),
+            new EverydayMaterial("Zip fastener, closed", "1.5 mm, a guess",
+                "0.5 mm, a guess", new Vector2(666.7f, 0f), 0.00025f, 400f, 0.3f, 0f),
+        };
+    }
+}
