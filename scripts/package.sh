@@ -203,7 +203,7 @@ release_linux() {
     if prepare_zig; then
         release_archive "$1" "$2" aarch64 "$zig" -DKNURL_ZIG_TARGET=aarch64-linux-gnu.2.28
         for arch in x86_64 aarch64; do
-            release_wheel "$1" $arch "$zig" "-DKNURL_ZIG_TARGET=$arch-linux-gnu.2.28"
+            release_wheel "$1" $arch "$zig" "-DKNURL_ZIG_TARGET=$arch-linux-gnu.2.28" -DCMAKE_SHARED_LINKER_FLAGS=-s
         done
     else
         echo "run: SKIPPED: archive and wheel for arm64, and for glibc 2.28 (see above): one wheel is built for this machine's" >&2
