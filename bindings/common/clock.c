@@ -23,6 +23,11 @@
 /* The share of a step by which the lag exceeds the needed one, so that it rarely has to grow. */
 #define MARGIN 0.1
 
+/* A speed's changes are summed up over some five moves, and the sum from which a clock may be the wrong one: at 144
+ * frames and 50 steps a second it reaches 0.36, the least of the usual pairs of rates. */
+#define KEPT   0.8
+#define UNEVEN 0.1
+
 static double now_of(const knurl_session *s) {
     return (double)knurl_board_get_tick(&s->board) / s->desc.update_rate_hz;
 }
@@ -78,13 +83,59 @@ int knurl_session_find_pace(const knurl_session *session, const knurl_session_wa
     }
     const double now = now_of(session);
     const double tick = 1.0 / session->desc.update_rate_hz;
-    pace->step = way->moved ? c->time - way->time : HUGE_VAL;
+    pace->step = way->moved ? c->time - way->times[way->clock] : HUGE_VAL;
     pace->lag = c->lag;
     if (pace->step >= 0.0 && pace->step < LONGEST) { /* the surface may move less often than its clock */
-        const double needed = now - way->time + tick;
+        const double needed = now - way->times[way->clock] + tick;
         const double own = fmin(way->lag - SHRINKING * pace->step, needed + LONGEST);
         pace->lag = fmax(c->lag, fmax(own, needed));
     }
     pace->seconds = fmax(c->time + pace->lag - now, tick);
     return 1;
+}
+
+/* m: how far a turn moves a surface's ridges per unit of its quaternion's change. Any size will do: only the changes of
+ * a speed from move to move are compared. */
+#define LEVER 0.1
+
+static double length_of_move(const knurl_session_way *way, const double position[3], const double rotation[4]) {
+    double moved2 = 0.0, turned2 = 0.0, alike = 0.0;
+    for (int i = 0; i < 4; i++) {
+        alike += rotation[i] * way->rotation[i];
+    }
+    for (int i = 0; i < 4; i++) {
+        const double by = rotation[i] - (alike < 0.0 ? -way->rotation[i] : way->rotation[i]);
+        turned2 += by * by;
+    }
+    for (int i = 0; i < 3; i++) {
+        moved2 += (position[i] - way->position[i]) * (position[i] - way->position[i]);
+    }
+    return sqrt(moved2) + LEVER * sqrt(turned2);
+}
+
+/* By a script's clock a constant speed is constant, by the other one it goes up and down: at 60 frames and 50 steps a
+ * second by a third, five times a second. A hand's own speed changes by both alike. */
+void knurl_session_correct_clock(const knurl_session *session, knurl_session_way *way, const double position[3],
+                                 const double rotation[4]) {
+    const knurl_session_clock *clocks = session->clocks;
+    if (!clocks[0].is_told || !clocks[1].is_told || !way->moved) {
+        return;
+    }
+    const double length = length_of_move(way, position, rotation);
+    const int is_first = clocks[0].time - way->times[0] > LONGEST; /* after a rest */
+    for (int i = 0; i < KNURL_SESSION_CLOCKS; i++) {
+        const double elapsed = clocks[i].time - way->times[i];
+        const double speed = elapsed > 0.0 ? length / elapsed : 0.0, sum = speed + way->speeds[i];
+        double change = elapsed > 0.0 ? 0.0 : 1.0; /* moved although its clock stood still */
+        if (elapsed > 0.0 && way->speeds[i] > 0.0 && sum > 0.0) {
+            change = fabs(speed - way->speeds[i]) / sum;
+        }
+        way->changes[i] = is_first ? way->changes[i] : KEPT * way->changes[i] + change;
+        way->speeds[i] = is_first ? 0.0 : elapsed > 0.0 ? speed : way->speeds[i];
+    }
+    const uint32_t other = 1 - way->clock;
+    if (way->changes[way->clock] > UNEVEN && way->changes[other] < 0.5 * way->changes[way->clock]) {
+        way->clock = other;
+        way->lag = -HUGE_VAL; /* it was of the other clock */
+    }
 }

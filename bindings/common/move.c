@@ -51,7 +51,9 @@ static double plan_move(const knurl_session *session, const knurl_session_way *w
     *next = *way;
     next->tick = tick;
     memcpy(next->position, position, sizeof next->position);
-    next->time = session->clocks[way->clock].time;
+    for (int clock = 0; clock < KNURL_SESSION_CLOCKS; clock++) {
+        next->times[clock] = session->clocks[clock].time;
+    }
     next->lag = pace.lag;
     next->moved = (uint32_t)is_paced;
     const double step = pace.step > LONGEST ? FIRST_MOVE : fmax(pace.step, FIRST_MOVE);
@@ -67,10 +69,14 @@ knurl_result knurl_session_move_surface(knurl_session *session, knurl_surface_id
     if (way->clock >= KNURL_SESSION_CLOCKS) {
         return fail_clock("way.clock", way->clock);
     }
-    knurl_session_way next;
-    const double seconds = plan_move(session, way, position, &next);
+    knurl_session_way next, from = *way;
+    if (way->is_guess) {
+        knurl_session_correct_clock(session, &from, position, rotation);
+    }
+    const double seconds = plan_move(session, &from, position, &next);
     const knurl_result result = knurl_scene_set_transform(session->scene, surface, position, rotation, seconds);
     if (!result) {
+        memcpy(next.rotation, rotation, sizeof next.rotation);
         *way = next;
     }
     return result;

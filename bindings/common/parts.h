@@ -76,6 +76,11 @@ static inline knurl_result knurl_session_check_run(const knurl_session *session)
 /* clock.c: the timing of a move by the clock of `way`. Returns 0 if the engine has not set that clock in this run. */
 int knurl_session_find_pace(const knurl_session *session, const knurl_session_way *way, knurl_session_pace *pace);
 
+/* clock.c: changes the clock of `way`, which is a guess, if its moves, the next one included, are more even by the
+ * other one. */
+void knurl_session_correct_clock(const knurl_session *session, knurl_session_way *way, const double position[3],
+                                 const double rotation[4]);
+
 /* sound.c: a knurl_tick_callback; user: the session. */
 void knurl_session_take(const knurl_tick_output *output, void *user) KNURL_NONBLOCKING;
 

@@ -87,14 +87,19 @@ typedef struct knurl_session_event {
 enum { KNURL_SESSION_FRAMES = 0, KNURL_SESSION_STEPS = 1, KNURL_SESSION_CLOCKS = 2 };
 
 /** State of a surface that follows an engine's object. The binding keeps one per surface and session. Before the first
- * move of a run: `position` as the surface was added, `clock`, and zeros. */
+ * move of a run: `position` as the surface was added, `clock`, `is_guess`, and zeros. */
 typedef struct knurl_session_way {
     double position[3]; /**< m: as of the last move */
+    double rotation[4]; /**< likewise */
+    double times[2];    /**< s: of both clocks at the last move; used by the session */
+    double speeds[2];   /**< by both clocks, in the last move; used by the session */
+    double changes[2];  /**< of these speeds from move to move, lately; used by the session */
+    double lag;         /**< s: delay of this surface's moves by `clock`; used by the session */
     uint64_t tick;      /**< of the last move */
-    double time;        /**< s: of that clock at the last move; used by the session */
-    double lag;         /**< s: delay of this surface's moves; used by the session */
     uint32_t clock;     /**< KNURL_SESSION_FRAMES (default) or _STEPS: for the next move */
+    uint32_t is_guess;  /**< 1: `clock` is a guess; the session changes to the one by which the speed is more even */
     uint32_t moved;     /**< 1: it has moved by that clock; used by the session */
+    uint32_t reserved;
 } knurl_session_way;
 
 /** A matrix as a rigid motion and a remainder: matrix = translation(position) * rotation * rest. */

@@ -94,11 +94,12 @@ static double noise(uint32_t *seed) {
 
 /* Physics at one rate, shown at another: a frame shows the steps that were due when it began. `unsteady`: share of a
  * frame by which frames come late or early. */
-static int play_steps(int32_t method, double fps, double rate, double unsteady) {
+static int play_steps(int32_t method, double fps, double rate, double unsteady, int is_guess) {
     rig r;
     uint32_t seed = 1;
     double steps = 0.0;
-    set_up(&r, method, KNURL_SESSION_STEPS);
+    set_up(&r, method, is_guess ? KNURL_SESSION_FRAMES : KNURL_SESSION_STEPS);
+    r.way.is_guess = (uint32_t)is_guess;
     for (double frame = 1.0; frame < fps * (WARM_UP_S + MEASURED_S); frame += 1.0) {
         const double now = (frame + 0.5 * unsteady * noise(&seed)) / fps;
         const double done = floor(now * rate + 1e-9);
@@ -117,7 +118,7 @@ TEST(surfaces_moved_by_physics_are_felt_evenly_at_any_pair_of_rates) {
     int failed = 0;
     for (size_t i = 0; i < COUNT(frame_rates) * COUNT(step_rates); i++) {
         failed +=
-            play_steps(KNURL_METHOD_S1, frame_rates[i / COUNT(step_rates)], step_rates[i % COUNT(step_rates)], 0.0);
+            play_steps(KNURL_METHOD_S1, frame_rates[i / COUNT(step_rates)], step_rates[i % COUNT(step_rates)], 0.0, 0);
     }
     assert_int_equal(failed, 0);
 }
@@ -126,7 +127,17 @@ TEST(so_it_is_where_frames_come_unevenly) {
     int failed = 0;
     for (size_t i = 0; i < COUNT(frame_rates) * COUNT(step_rates); i++) {
         failed +=
-            play_steps(KNURL_METHOD_S1, frame_rates[i / COUNT(step_rates)], step_rates[i % COUNT(step_rates)], 0.4);
+            play_steps(KNURL_METHOD_S1, frame_rates[i / COUNT(step_rates)], step_rates[i % COUNT(step_rates)], 0.4, 0);
+    }
+    assert_int_equal(failed, 0);
+}
+
+TEST(so_it_is_if_they_were_taken_for_surfaces_moved_by_frames) {
+    int failed = 0;
+    for (size_t i = 0; i < COUNT(frame_rates) * COUNT(step_rates) * 2; i++) {
+        const size_t pair = i / 2;
+        failed += play_steps(KNURL_METHOD_S1, frame_rates[pair / COUNT(step_rates)],
+                             step_rates[pair % COUNT(step_rates)], i % 2 ? 0.4 : 0.0, 1);
     }
     assert_int_equal(failed, 0);
 }
@@ -134,26 +145,39 @@ TEST(so_it_is_where_frames_come_unevenly) {
 TEST(so_it_is_with_the_default_method) {
     int failed = 0;
     for (size_t i = 0; i < COUNT(frame_rates); i++) {
-        failed += play_steps(KNURL_METHOD_DEFAULT, frame_rates[i], 60.0, 0.0);
+        failed += play_steps(KNURL_METHOD_DEFAULT, frame_rates[i], 60.0, 0.0, 0);
     }
     assert_int_equal(failed, 0);
 }
 
 /* A script moves objects by each frame's length, and frames have uneven lengths. */
+static int play_frames(double fps, double rate, int is_guess) {
+    rig r;
+    uint32_t seed = 1;
+    set_up(&r, KNURL_METHOD_S1, is_guess ? KNURL_SESSION_STEPS : KNURL_SESSION_FRAMES);
+    r.way.is_guess = (uint32_t)is_guess;
+    for (double frame = 1.0; frame < fps * (WARM_UP_S + MEASURED_S); frame += 1.0) {
+        const double now = (frame + 0.2 * noise(&seed)) / fps;
+        go_to(&r, now);
+        assert_int_equal(knurl_session_tell_time(r.s, KNURL_SESSION_FRAMES, now), KNURL_OK);
+        assert_int_equal(knurl_session_tell_time(r.s, KNURL_SESSION_STEPS, floor(now * rate) / rate), KNURL_OK);
+        move_to(&r, now);
+    }
+    return check_gaps(&r, "frames", fps, rate);
+}
+
 TEST(surfaces_moved_by_frames_are_felt_evenly) {
     int failed = 0;
     for (size_t i = 0; i < COUNT(frame_rates); i++) {
-        rig r;
-        uint32_t seed = 1;
-        const double fps = frame_rates[i];
-        set_up(&r, KNURL_METHOD_S1, KNURL_SESSION_FRAMES);
-        for (double frame = 1.0; frame < fps * (WARM_UP_S + MEASURED_S); frame += 1.0) {
-            const double now = (frame + 0.2 * noise(&seed)) / fps;
-            go_to(&r, now);
-            assert_int_equal(knurl_session_tell_time(r.s, KNURL_SESSION_FRAMES, now), KNURL_OK);
-            move_to(&r, now);
-        }
-        failed += check_gaps(&r, "frames", fps, 0.0);
+        failed += play_frames(frame_rates[i], 50.0, 0);
+    }
+    assert_int_equal(failed, 0);
+}
+
+TEST(so_they_are_if_they_were_taken_for_surfaces_moved_by_physics) {
+    int failed = 0;
+    for (size_t i = 0; i < COUNT(frame_rates) * COUNT(step_rates); i++) {
+        failed += play_frames(frame_rates[i / COUNT(step_rates)], step_rates[i % COUNT(step_rates)], 1);
     }
     assert_int_equal(failed, 0);
 }

@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "74e8abcd7df5c538"
+#define KNURL_UNITY_INTERFACE "c8fdd2c05133ae86"
 
 /** The mirrored structs, as C# lays them out: STRUCT(type, bytes), FIELD(type, field, name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
@@ -418,13 +418,18 @@
     FIELD(knurl_session_event, code, "code", 4, 4) \
     FIELD(knurl_session_event, value, "value", 8, 8) \
     FIELD(knurl_session_event, surface, "surface", 16, 8) \
-    STRUCT(knurl_session_way, 56) \
+    STRUCT(knurl_session_way, 136) \
     FIELD(knurl_session_way, position, "position", 0, 24) \
-    FIELD(knurl_session_way, tick, "tick", 24, 8) \
-    FIELD(knurl_session_way, time, "time", 32, 8) \
-    FIELD(knurl_session_way, lag, "lag", 40, 8) \
-    FIELD(knurl_session_way, clock, "clock", 48, 4) \
-    FIELD(knurl_session_way, moved, "moved", 52, 4) \
+    FIELD(knurl_session_way, rotation, "rotation", 24, 32) \
+    FIELD(knurl_session_way, times, "times", 56, 16) \
+    FIELD(knurl_session_way, speeds, "speeds", 72, 16) \
+    FIELD(knurl_session_way, changes, "changes", 88, 16) \
+    FIELD(knurl_session_way, lag, "lag", 104, 8) \
+    FIELD(knurl_session_way, tick, "tick", 112, 8) \
+    FIELD(knurl_session_way, clock, "clock", 120, 4) \
+    FIELD(knurl_session_way, is_guess, "is_guess", 124, 4) \
+    FIELD(knurl_session_way, moved, "moved", 128, 4) \
+    FIELD(knurl_session_way, reserved, "reserved", 132, 4) \
     STRUCT(knurl_session_pose, 200) \
     FIELD(knurl_session_pose, position, "position", 0, 24) \
     FIELD(knurl_session_pose, rotation, "rotation", 24, 72) \

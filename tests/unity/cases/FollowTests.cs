@@ -342,30 +342,6 @@ namespace Knurl.Tests
             Assert.AreEqual(made + 2, s.Made);
         }
 
-        /// <summary>A plate slides at 20 mm/s in steps of 20 ms, several frames each: without interpolation it would
-        /// jump and stop.</summary>
-        [Test]
-        public void WhatABodyMovesIsFeltToMoveEvenly()
-        {
-            KnurlSurface s = MakeSurface(Plate());
-            Transform body = MakeObject("Body").transform;
-            body.gameObject.AddComponent<Rigidbody>();
-            s.transform.SetParent(body, false);
-            KnurlDevice d = StartPressing();
-            Until(() => d.InContact, "pressed");
-            Mover mover = body.gameObject.AddComponent<Mover>();
-            mover.Step = new Vector3(0.0004f, 0f, 0f);
-            Until(() => mover.Count > 20, "it moves");
-            int frames = 0, moving = 0;
-            while (mover.Count < 70)
-            {
-                Player.Frames(1);
-                frames++;
-                moving += d.TemporalFrequency > 10f && d.TemporalFrequency < 40f ? 1 : 0; // 20 mm/s, a ridge a mm
-            }
-            Assert.That(moving, Is.GreaterThan(frames / 2), "of " + frames);
-        }
-
         [TestCase(true)]
         [TestCase(false)]
         public void ABodyIsPushedByWhatTheHandFeelsWhereItIsToBe(bool reacts)
@@ -409,18 +385,6 @@ namespace Knurl.Tests
             d.StopDevice();
             Player.Frames(20);
             Assert.IsFalse(d.Running);
-        }
-
-        sealed class Mover : MonoBehaviour
-        {
-            internal Vector3 Step;
-            internal int Count;
-
-            void FixedUpdate()
-            {
-                transform.position += Step;
-                Count++;
-            }
         }
     }
 }

@@ -32,6 +32,7 @@ namespace Knurl
                 f->way = default(knurl_session_way);
                 f->way.clock = (uint)(IsMovedBySteps(surface) ? NativeMethods.KNURL_SESSION_STEPS
                     : NativeMethods.KNURL_SESSION_FRAMES);
+                f->way.is_guess = 1; // scripts move bodies in frames, and other objects in steps
             }
             Copy(pose.position, f->way.position, 3);
             Copy(pose.rest, f->rest, 9);
@@ -47,7 +48,14 @@ namespace Knurl
                 Complain(surface, refusal);
                 return false;
             }
-            return PutMesh(surface, MeshReader.Read(mesh, pose->rest), f, pose);
+            var key = new ShapeKey(mesh, pose->rest, surface);
+            ulong shapeOf = shapes.Find(key);
+            if (!PutShape(surface, shapeOf == 0 ? MeshReader.Read(mesh, pose->rest) : null, shapeOf, f, pose))
+            {
+                return false;
+            }
+            shapes.Join(f->id, key);
+            return true;
         }
 
         /// <summary>A body without interpolation moves its objects in physics steps.</summary>
@@ -57,38 +65,52 @@ namespace Knurl
             return body != null && body.interpolation == RigidbodyInterpolation.None;
         }
 
-        bool PutMesh(KnurlSurface surface, MeshData data, Follower* f, knurl_session_pose* pose)
+        /// <summary>data: null if the surface gets the shape of another one, shapeOf.</summary>
+        bool PutShape(KnurlSurface surface, MeshData data, ulong shapeOf, Follower* f, knurl_session_pose* pose)
         {
             knurl_material_desc material;
-            knurl_mesh_desc mesh;
             knurl_surface_desc desc;
-            double* axis = stackalloc double[3];
             surface.Grating.Describe(&material);
-            NativeMethods.knurl_mesh_desc_init(&mesh, (uint)sizeof(knurl_mesh_desc));
             NativeMethods.knurl_surface_desc_init(&desc, (uint)sizeof(knurl_surface_desc));
-            mesh.vertex_count = (uint)(data.Positions.Length / 3);
-            mesh.index_count = (ulong)data.Indices.Length;
-            desc.mesh = &mesh;
             desc.material = &material;
+            desc.shape_of = shapeOf;
             desc.double_sided = surface.DoubleSided ? 1u : 0u;
-            desc.smooth = (int)surface.Smooth;
-            desc.coordinates = surface.BoxCoordinates ? NativeMethods.KNURL_COORDINATES_BOX : 0;
             Copy(pose->position, desc.position, 3);
             Copy(pose->quaternion, desc.rotation, 4);
+            return data != null ? PutMesh(surface, data, &desc, f, pose) : PutNamed(surface, &desc, f);
+        }
+
+        bool PutMesh(KnurlSurface surface, MeshData data, knurl_surface_desc* desc, Follower* f, knurl_session_pose* pose)
+        {
+            knurl_mesh_desc mesh;
+            double* axis = stackalloc double[3];
+            NativeMethods.knurl_mesh_desc_init(&mesh, (uint)sizeof(knurl_mesh_desc));
+            mesh.vertex_count = (uint)(data.Positions.Length / 3);
+            mesh.index_count = (ulong)data.Indices.Length;
+            desc->mesh = &mesh;
+            desc->smooth = (int)surface.Smooth;
+            desc->coordinates = surface.BoxCoordinates ? NativeMethods.KNURL_COORDINATES_BOX : 0;
             Axes.ToScene(surface.Axis, axis);
-            Axes.Multiply(pose->rest, axis, desc.axis); // the axis is in the mesh's axes: scaled like the mesh
-            fixed (byte* name = Utf8.Bytes(surface.name.Replace('\0', ' '), "name"))
+            Axes.Multiply(pose->rest, axis, desc->axis); // the axis is in the mesh's axes: scaled like the mesh
             fixed (float* positions = data.Positions, normals = data.Normals, tangents = data.Tangents, uvs = data.Uvs)
             fixed (uint* indices = data.Indices)
             {
-                desc.name = name;
                 mesh.positions = positions;
                 mesh.normals = normals;
                 mesh.tangents = tangents;
                 mesh.uvs = uvs;
                 mesh.indices = indices;
-                return Tell(surface, f->id != 0 ? NativeMethods.knurl_scene_replace_surface(scene, f->id, &desc)
-                    : NativeMethods.knurl_scene_add_surface(scene, &desc, &f->id));
+                return PutNamed(surface, desc, f);
+            }
+        }
+
+        bool PutNamed(KnurlSurface surface, knurl_surface_desc* desc, Follower* f)
+        {
+            fixed (byte* name = Utf8.Bytes(surface.name.Replace('\0', ' '), "name"))
+            {
+                desc->name = name;
+                return Tell(surface, f->id != 0 ? NativeMethods.knurl_scene_replace_surface(scene, f->id, desc)
+                    : NativeMethods.knurl_scene_add_surface(scene, desc, &f->id));
             }
         }
 
@@ -97,6 +119,7 @@ namespace Knurl
             if (f->id != 0)
             {
                 NativeMethods.knurl_scene_remove_surface(scene, f->id); // the session reports the end of a contact
+                shapes.Leave(f->id);
                 f->id = 0;
             }
         }

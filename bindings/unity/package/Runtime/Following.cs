@@ -22,6 +22,7 @@ namespace Knurl
 
         readonly SessionHandle session;
         readonly knurl_scene* scene; // owned by the session
+        readonly Shapes shapes = new Shapes();
         KnurlSurface[] surfaces = new KnurlSurface[16];
         Transform[] transforms = new Transform[16];
         Follower[] followers = new Follower[16];
@@ -130,6 +131,12 @@ namespace Knurl
             return i < 0 || followers[i].id == 0
                 || NativeMethods.knurl_scene_get_surface_info(scene, followers[i].id, &info) != NativeMethods.KNURL_OK
                 ? 0 : (int)info.triangle_count;
+        }
+
+        /// <summary>A mesh has changed.</summary>
+        internal void Forget(Mesh mesh)
+        {
+            shapes.Forget(mesh);
         }
 
         /// <summary>Adds a warning for each setting of a surface that the device cannot render.</summary>

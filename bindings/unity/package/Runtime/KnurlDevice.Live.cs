@@ -250,6 +250,14 @@ namespace Knurl
             return isRunning ? following.CountTriangles(surface) : 0;
         }
 
+        internal void Forget(Mesh mesh)
+        {
+            if (following != null)
+            {
+                following.Forget(mesh);
+            }
+        }
+
         internal void Explain(KnurlSurface surface, List<string> warnings)
         {
             if (isRunning)

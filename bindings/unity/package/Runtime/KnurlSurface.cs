@@ -155,9 +155,15 @@ namespace Knurl
         internal int Felt { get; private set; }
 
         /// <summary>Reads the mesh again in the next frame. Call it after a change of the mesh or of the MeshFilter's
-        /// mesh. A finger that rests on it stays in contact.</summary>
+        /// mesh, for each surface that shows it. A finger that rests on it stays in contact.</summary>
         public void UpdateMesh()
         {
+            Mesh mesh;
+            FindMesh(out mesh);
+            for (int i = 0; mesh != null && i < Registry.Devices.Count; i++)
+            {
+                Registry.Devices[i].Forget(mesh);
+            }
             Made++;
         }
 

@@ -604,11 +604,16 @@ namespace Knurl
     internal unsafe struct knurl_session_way
     {
         public fixed double position[3];
-        public ulong tick;
-        public double time;
+        public fixed double rotation[4];
+        public fixed double times[2];
+        public fixed double speeds[2];
+        public fixed double changes[2];
         public double lag;
+        public ulong tick;
         public uint clock;
+        public uint is_guess;
         public uint moved;
+        public uint reserved;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -687,7 +692,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>The result of knurl_unity_interface() of the library that this file was generated for.</summary>
-        internal const string Interface = "74e8abcd7df5c538";
+        internal const string Interface = "c8fdd2c05133ae86";
 
         internal const string Version = "0.3.0";
 
