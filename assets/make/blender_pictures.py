@@ -28,7 +28,16 @@ def handle():
     return shown, 0.1, Euler((1.1, 0.0, 0.75))
 
 
-PICTURES = {"blender": handle}
+def tutorial():
+    """The plain handle of docs/tutorial.md, which tutorial.sh leaves in FOLDER, with a material chosen."""
+    bpy.ops.import_scene.gltf(filepath=os.path.join(FOLDER, "model.glb"))
+    shown = [each for each in bpy.context.scene.objects if each.type == "MESH"][0]
+    bpy.context.view_layer.objects.active = shown
+    bpy.ops.knurl.preset(name="knurl_straight")
+    return shown, 0.1, Euler((1.1, 0.0, 0.75))
+
+
+PICTURES = {"blender": handle, "tutorial_blender": tutorial}
 
 
 def area_of(kind):

@@ -56,7 +56,7 @@ worst() { sed -n "s/.*$1: //p" "$folder/$name.log" | sort -g | tail -n 1; }
 try() {
     local name=$1
     shift
-    rm -rf "$folder"/{home,exported}
+    rm -rf "${folder:?}"/{home,exported}
     mkdir "$folder"/{home,exported}
     BLENDER_USER_RESOURCES=$folder/home KNURL_KEEP=$folder/exported PYTHONDONTWRITEBYTECODE=1 \
         timeout 500 "$@" "$tools" "$zip" >"$folder/$name.log" 2>&1 ||
