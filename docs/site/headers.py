@@ -34,7 +34,9 @@ def titles(code):
 
 
 def folded(code):
-    """A declaration of functions with a parameter a line if it is longer than a page is wide."""
+    """A declaration with a parameter or constant a line if it is longer than a page is wide."""
+    if re.fullmatch(r"enum \{ [^\n]* \};", code) and len(code) > WIDTH:
+        return code.replace("{ ", "{\n    ").replace(", ", ",\n    ").replace(" }", "\n}")
     if not re.match(r"[^{]*\(", code) or max(map(len, code.splitlines())) <= WIDTH:
         return code
     head, _, rest = " ".join(code.split()).partition("(")
