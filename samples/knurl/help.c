@@ -244,11 +244,12 @@ void help_print_fake_keys(void) {
     fputs(knurl_fake_keys(), stdout);
 }
 
+/* Filled by man: only the end of a sentence ends a line. */
 static void print_roff(const char *text) {
     for (const char *c = text; *c; c++) {
         fputs(*c == '-' ? "\\-" : *c == '\\' ? "\\e" : "", stdout);
         if (*c == '\n' && c[1]) {
-            fputs("\n.br\n", stdout);
+            fputs(c > text && strchr(".:", c[-1]) ? "\n.br\n" : "\n", stdout);
         } else if (*c != '-' && *c != '\\') {
             putchar(*c);
         }
@@ -272,8 +273,11 @@ void help_print_man(void) {
         }
         fputs("\n.PP\n", stdout);
         print_roff(c->details);
-        fputs("\n.br\n", stdout);
-        print_roff(c->more ? c->more() : "");
+        fputs(c->more ? ".nf\n" : "\n", stdout); /* details of such a command end a line */
+        if (c->more) {
+            fputs(c->more(), stdout);
+            fputs(".fi\n", stdout);
+        }
     }
     fputs("\n.SH \"EXIT CODES\"\n", stdout);
     print_roff(exit_codes);

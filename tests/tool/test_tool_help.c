@@ -99,7 +99,7 @@ TEST(man_page_and_completions_name_every_command) {
     SCOPED_PROCESS fish = RUN_TOOL("completion", "fish");
     for (size_t i = 0; i < COUNT_OF(commands); i++) {
         char heading[64];
-        (void)snprintf(heading, sizeof heading, ".SH \"knurl %s\"", commands[i]);
+        (void)snprintf(heading, sizeof heading, "\n.SH \"knurl %s\"\n", commands[i]);
         check_has(man.out, heading);
         check_has(zsh.out, commands[i]);
         check_has(fish.out, commands[i]);
