@@ -4,7 +4,7 @@
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 work=$1 out=$2
-mkdir -p "$work/page" "$out/assets"
+mkdir -p "$work/page" "$out"/{assets,draco}
 cp "$here"/{package.json,package-lock.json,.npmrc} "$work/page/"
 if ! cmp -s "$here/package-lock.json" "$work/page/installed.json"; then # the lock file's versions, checked by hash
     echo 'fetching three.js and esbuild'
@@ -13,8 +13,10 @@ if ! cmp -s "$here/package-lock.json" "$work/page/installed.json"; then # the lo
 fi
 "$here/wasm.sh" "$work"
 cp "$here"/*.js "$work/knurl.mjs" "$work/page/"
-"$work/page/node_modules/@esbuild/linux-x64/bin/esbuild" "$work"/page/{main,view,worker}.js --bundle --minify --format=esm \
-    --external:./view.js --legal-comments=eof --outdir="$out" --log-level=warning
+"$work/page/node_modules/@esbuild/linux-x64/bin/esbuild" "$work"/page/{main,view,worker,unpack}.js --bundle --minify --format=esm \
+    --external:./view.js --external:./unpack.js --legal-comments=eof --outdir="$out" --log-level=warning
 cp "$here"/{index.html,start.js,style.css} "$work/knurl.wasm" "$out/"
+cp "$work"/page/node_modules/three/examples/jsm/libs/draco/gltf/draco_{decoder.wasm,wasm_wrapper.js} "$out/draco/"
+[ ! -f /usr/share/common-licenses/Apache-2.0 ] || cp /usr/share/common-licenses/Apache-2.0 "$out/draco/LICENSE" # Google's Draco
 cat "$here"/../../{LICENSE,bindings/godot/addons/knurl/THIRD_PARTY.md} >"$out/licences.txt" # of the code in knurl.wasm
 cp "$here"/../../assets/{plate_1d,grid_2d,knurled_handle}.glb "$out/assets/"

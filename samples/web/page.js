@@ -7,8 +7,7 @@ export function tell(text, isError = false) {
 }
 
 // The scene: its 3D view (undefined before it is tried, null without WebGL), surfaces {name, feel, ...}, and the .glb
-// that
-// it came from.
+// that it came from.
 export const scene = { view: undefined, surfaces: [], bytes: null, name: "" };
 
 export const surface = () => scene.surfaces[$("surface").value];
@@ -18,10 +17,26 @@ export function setSurfaces(surfaces) {
   $("surface").replaceChildren(...surfaces.map(({ name }, index) => new Option(name, index)));
 }
 
+export const press = (id, isPressed) => $(id).setAttribute("aria-pressed", String(isPressed));
+export const isPressed = (id) => $(id).getAttribute("aria-pressed") === "true";
+
 export function save(content, name) {
   const link = document.createElement("a");
   link.href = URL.createObjectURL(new Blob([content]));
   link.download = name;
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+}
+
+// Prepares a canvas of the size that it has on the screen.
+export function prepare(canvas) {
+  const ratio = Math.min(2, window.devicePixelRatio);
+  const [width, height] = [canvas.clientWidth, canvas.clientHeight];
+  canvas.width = Math.max(1, width * ratio);
+  canvas.height = Math.max(1, height * ratio);
+  const context = canvas.getContext("2d");
+  context.scale(ratio, ratio);
+  context.font = "12px system-ui, sans-serif";
+  const style = getComputedStyle(document.documentElement);
+  return { context, width, height, colour: (name) => style.getPropertyValue(name) };
 }

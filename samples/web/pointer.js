@@ -1,63 +1,92 @@
-// Converts mouse, finger, pen and keyboard input to the HIP's target. SPDX-License-Identifier: MIT
+// Mouse, finger, pen and keyboard: strokes as rays with their times, and turns of the view. SPDX-License-Identifier: MIT
 import { $, scene, surface } from "./page.js";
 
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+const TURN = Math.PI / 24; // of the view, by a key
+const CLICK_PX = 4; // a press that moves less is a click
 
 export class Pointer {
-  constructor(simulation) {
-    this.simulation = simulation;
-    this.under = null; // the stroked point: {point, normal}
+  // taken(): called when a hand begins. clicked(event): a press that did not move.
+  constructor(simulation, { taken, clicked }) {
+    Object.assign(this, { simulation, taken, clicked });
+    this.down = new Set(); // ids of pointers
+    this.stroke = null; // {id, x, y, moved}
+    this.held = new Set(); // arrow keys
     const canvas = $("view");
-    canvas.addEventListener("pointerdown", (event) => {
-      if (scene.view && event.isPrimary && event.button === 0) {
-        canvas.setPointerCapture(event.pointerId);
-        this.stroke(event);
-      }
-    });
-    canvas.addEventListener("pointermove", (event) => {
-      if (scene.view && event.isPrimary && event.buttons & 1) {
-        this.stroke(event);
-      }
-    });
-    for (const end of ["pointerup", "pointercancel", "blur"]) {
-      canvas.addEventListener(end, () => this.lift());
+    canvas.addEventListener("pointerdown", (event) => this.begin(event));
+    canvas.addEventListener("pointermove", (event) => this.move(event));
+    ["pointerup", "pointercancel"].forEach((end) => canvas.addEventListener(end, (event) => this.end(event)));
+    canvas.addEventListener("blur", () => this.lift());
+    canvas.addEventListener("keydown", (event) => this.key(event));
+    canvas.addEventListener("keyup", (event) => this.held.delete(event.key) && this.hold(false));
+  }
+
+  begin(event) {
+    this.down.add(event.pointerId);
+    if (this.down.size > 1) { // two fingers turn the view
+      this.lift();
+    } else if (scene.view && event.button === 0) {
+      $("view").setPointerCapture(event.pointerId);
+      this.stroke = { id: event.pointerId, x: event.clientX, y: event.clientY, moved: false };
+      this.taken();
+      this.send([event]);
     }
-    canvas.addEventListener("keydown", (event) => this.strokeByKey(event));
-    $("depth").addEventListener("input", () => this.under && this.press());
   }
 
-  press() {
-    const depth = Number($("depth").value) / 1000;
-    this.simulation.move(this.under && this.under.point.map((value, i) => value - depth * this.under.normal[i]));
+  move(event) {
+    if (this.stroke?.id === event.pointerId) {
+      const { x, y } = this.stroke;
+      this.stroke.moved ||= Math.hypot(event.clientX - x, event.clientY - y) > CLICK_PX;
+      const samples = event.getCoalescedEvents?.() ?? [];
+      this.send(samples.length > 0 ? samples : [event]);
+    }
   }
 
-  stroke(event) {
-    this.under = scene.view.pick(event);
-    this.press();
+  end(event) {
+    this.down.delete(event.pointerId);
+    if (this.stroke?.id === event.pointerId) {
+      if (!this.stroke.moved && event.type === "pointerup") {
+        this.clicked(event);
+      }
+      this.lift();
+    }
+  }
+
+  // Each sample as a ray from the camera, at its own time.
+  send(events) {
+    const rays = events.map((event) => [performance.timeOrigin + event.timeStamp, ...scene.view.ray(event)]);
+    this.simulation.send("stroke", { rays: Float64Array.from(rays.flat()) });
   }
 
   lift() {
-    if (this.under) {
-      this.under = null;
-      this.press();
+    this.stroke = null;
+    this.held.clear();
+    this.simulation.send("lift", { t: performance.timeOrigin + performance.now() });
+  }
+
+  key(event) {
+    const way = ARROWS[event.key];
+    const zoom = { "+": 1 / 1.2, "=": 1 / 1.2, "-": 1.2 }[event.key];
+    if (event.key === "Escape") {
+      this.held.clear();
+      this.simulation.send("travel", { way: null });
+    } else if (zoom) {
+      scene.view?.turn(0, 0, zoom);
+    } else if (way && event.shiftKey) {
+      scene.view?.turn(-TURN * way[0], -TURN * way[1], 1);
+    } else if (way && surface() && !event.repeat) {
+      this.held.add(event.key);
+      this.taken();
+      this.hold(true);
+    }
+    if (zoom || way) {
+      event.preventDefault();
     }
   }
 
-  strokeByKey(event) {
-    const way = ARROWS[event.key];
-    if (event.key === "Escape") {
-      this.under = null;
-      this.press();
-    }
-    if (!way || !surface()) {
-      return;
-    }
-    event.preventDefault();
-    const { anchor, normal: upward, x } = surface();
-    const { point: from, normal: n } = this.under ?? { point: anchor, normal: upward };
-    const y = [n[1] * x[2] - n[2] * x[1], n[2] * x[0] - n[0] * x[2], n[0] * x[1] - n[1] * x[0]];
-    const point = from.map((value, i) => value + 0.002 * (way[0] * x[i] + way[1] * y[i]));
-    this.under = scene.view?.pickBelow(point, n) ?? { point, normal: n };
-    this.press();
+  hold(begins) {
+    const way = [...this.held].reduce(([x, y], key) => [x + ARROWS[key][0], y + ARROWS[key][1]], [0, 0]);
+    const { anchor, normal, x } = surface();
+    this.simulation.send("hold", { way, begins, anchor, normal, x });
   }
 }

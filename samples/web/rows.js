@@ -1,5 +1,6 @@
 // A tick as a row of numbers, sent by web.c and `knurl run --view`. SPDX-License-Identifier: MIT
 export const ROW = 23;
+export const METHODS = 3; // S1, S2, bandlimited: numbers 1 to 3
 export const AT = { force: 0, hip: 3, proxy: 6, depth: 9, height: 10, frequency: 11, cycles: 12, contact: 14, surface: 15,
   time: 16, velocity: 17, spatial: 19, normal: 20 };
 

@@ -1,12 +1,14 @@
 // Settings of surface and device; links and the failures' catalogue set them. SPDX-License-Identifier: MIT
+import { listen, method, setMethod } from "./compare.js";
+import { $, press, scene, surface, tell } from "./page.js";
 import { PRESETS } from "./presets.js";
-import { $, scene, surface, tell } from "./page.js";
 import { showSwatches } from "./swatches.js";
 
 const METHODS = ["bandlimited", "S1", "S2", "bandlimited"];
 const SLIDERS = [["fsx", 0, 1], ["fsy", 1, 1], ["amplitude", 2, 1000], ["stiffness", 3, 1], ["friction", 4, 1]];
-const FEEL = ["method", ...SLIDERS.map(([id]) => id)];
-const SHARED = ["model", "surface", ...FEEL, "depth", "exaggeration", "rate", "resolution"];
+const DEVICE = ["depth", "exaggeration", "rate", "resolution"];
+const GHOST = { half: 0.045, speed: 0.12 }; // m, m/s
+export const SETTINGS = ["model", "surface", "method", ...SLIDERS.map(([id]) => id), ...DEVICE];
 
 // The tag of a surface for a glTF material's extras.
 export function tag(feel) {
@@ -14,19 +16,29 @@ export function tag(feel) {
     method: METHODS[feel[5]] };
 }
 
-export const shownFeel = () =>
-  [...SLIDERS.map(([id, , scale]) => Number($(id).value) / scale), Number($("method").value)];
+export const shownFeel = () => [...SLIDERS.map(([id, , scale]) => Number($(id).value) / scale), method()];
 
-function set(id, value) {
-  $(id).value = value; // the control ignores unknown values
+export const value = (id) => (id === "method" ? String(method()) : $(id).value);
+
+function set(id, wanted) {
+  if (id === "method") {
+    setMethod(wanted);
+    return;
+  }
+  $(id).value = wanted; // the control ignores unknown values
   if ($(id).selectedIndex === -1) {
     $(id).selectedIndex = 0;
   }
 }
 
+const spoken = ({ id, value: shown, dataset }) => (id !== "fsx" ? shown + dataset.unit
+  : Number(shown) > 0 ? `${(1000 / shown).toFixed(2)} mm apart` : "none");
+
 export function showOutputs() {
   for (const slider of document.querySelectorAll('input[type="range"]')) {
-    slider.parentElement.querySelector("output").textContent = slider.value + slider.dataset.unit;
+    const text = spoken(slider);
+    slider.parentElement.querySelector("output").textContent = text;
+    slider.setAttribute("aria-valuetext", text);
   }
   $("extras").textContent = JSON.stringify({ knurl: tag(shownFeel()) }, null, 1);
 }
@@ -39,42 +51,68 @@ export function showFeel() {
   for (const [id, index, scale] of SLIDERS) {
     $(id).value = feel[index] * scale;
   }
-  $("method").value = feel[5] || 3;
+  setMethod(feel[5] || 3);
   showOutputs();
 }
 
+export function showPreset(preset) {
+  $("preset-text").textContent = preset?.text ?? "";
+  $("preset").options[0].textContent = preset ? "back to the settings before" : "choose a failure";
+}
+
 export class Settings {
-  // openDemo(name) loads one of the demo models.
+  // openDemo(name) loads one of the demo models. clear(rate): a new update rate.
   constructor(simulation, openDemo, clear) {
-    this.simulation = simulation;
-    this.openDemo = openDemo;
-    this.clear = clear; // with the new update rate: clears the drawing
+    Object.assign(this, { simulation, openDemo, clear });
+    this.before = null; // the settings before a failure was chosen
     $("preset").append(...PRESETS.map(({ title }, index) => new Option(title, index)));
     $("preset").addEventListener("change", () => this.usePreset(PRESETS[$("preset").value]));
-    $("surface").addEventListener("change", showFeel);
-    $("share").addEventListener("click", () => this.share());
+    $("surface").addEventListener("change", () => this.chooseSurface());
+    $("depth").addEventListener("input", () => this.setDepth());
     ["rate", "resolution"].forEach((id) => $(id).addEventListener("change", () => this.setDevice()));
-    FEEL.forEach((id) => $(id).addEventListener("input", () => this.setFeel()));
-    showSwatches(async (feel) => {
-      await this.setFeel([...feel, Number($("method").value)]);
+    SLIDERS.forEach(([id]) => $(id).addEventListener("input", () => this.setFeel()));
+    showSwatches(async (feel, color) => {
+      const index = Number($("surface").value);
+      await this.send(index, [...feel, method()]);
       showFeel();
+      scene.view?.setRidges(scene.surfaces);
+      scene.view?.paint(index, color);
     });
+    listen(() => this.setMethods());
+    $("ghost").addEventListener("click", () => ($("ghost").getAttribute("aria-pressed") === "true" ? this.rest() : this.move()));
   }
 
-  async setFeel(feel = shownFeel()) {
-    const index = Number($("surface").value);
+  async send(index, feel) {
     const { error } = await this.simulation.ask("feel", { index, feel });
     if (error) {
       tell(error, true);
     } else if (scene.surfaces[index]) {
-      scene.surfaces[index].feel = feel;
+      Object.assign(scene.surfaces[index], { feel, changed: true });
     }
+  }
+
+  async setFeel() {
     showOutputs();
+    if (surface()) {
+      await this.send(Number($("surface").value), shownFeel());
+      scene.view?.setRidges(scene.surfaces);
+    }
+  }
+
+  // A method is chosen for all surfaces.
+  async setMethods() {
+    showOutputs();
+    await Promise.all(scene.surfaces.map(({ feel }, index) => this.send(index, [...feel.slice(0, 5), method()])));
+  }
+
+  setDepth() {
+    this.simulation.send("depth", { depth: Number($("depth").value) / 1000 });
   }
 
   async setDevice() {
     const rate = Number($("rate").value);
     const resolution = Number($("resolution").value);
+    this.setDepth();
     const { error } = await this.simulation.ask("device", { rate, resolution, protections: 15 });
     this.clear(rate);
     if (error) {
@@ -82,41 +120,61 @@ export class Settings {
     }
   }
 
-  async share() {
-    location.hash = new URLSearchParams(SHARED.map((id) => [id, $(id).value])).toString();
-    try {
-      await navigator.clipboard.writeText(location.href);
-      tell("The link is in the clipboard.");
-    } catch {
-      tell("The link is in the address bar.");
+  chooseSurface() {
+    showFeel();
+    if ($("ghost").getAttribute("aria-pressed") === "true") {
+      this.move();
     }
   }
 
   // settings: a Map or URLSearchParams of controls' values
   async use(settings) {
     const these = (ids) => ids.filter((id) => settings.has(id)).forEach((id) => set(id, settings.get(id)));
-    these(["model", "depth", "exaggeration", "rate", "resolution"]);
+    these(["model", ...DEVICE]);
     await Promise.all([this.setDevice(), this.openDemo($("model").value)]);
-    these(["surface"]);
-    showFeel();
-    these(FEEL);
-    if (surface() && FEEL.some((id) => settings.has(id))) {
-      await this.setFeel();
+    await this.useFeel(settings);
+  }
+
+  // The settings of the surface.
+  async useFeel(settings) {
+    if (settings.has("surface")) {
+      set("surface", settings.get("surface"));
+      showFeel();
+    }
+    SLIDERS.filter(([id]) => settings.has(id)).forEach(([id]) => set(id, settings.get(id)));
+    await this.setFeel();
+    if (settings.has("method")) {
+      set("method", settings.get("method"));
+      await this.setMethods();
     }
   }
 
-  // Applies a failure of the catalogue: settings, and a stroke that shows it.
+  // Applies a failure of the catalogue: settings, and a stroke that shows it; none: the settings before.
   async usePreset(preset) {
-    $("preset-text").textContent = preset?.text ?? "";
-    this.simulation.travel(null);
-    if (!preset) {
+    showPreset(preset);
+    const before = this.before ?? new Map(SETTINGS.map((id) => [id, value(id)]));
+    this.before = preset ? before : null;
+    this.rest();
+    await this.use(preset ? new Map(Object.entries({ ...PRESETS.common, ...preset.settings })) : before);
+    this.move();
+  }
+
+  // Strokes the surface to and fro: as the failure that is chosen says, or slowly.
+  move() {
+    if (!surface()) {
       return;
     }
-    await this.use(new Map(Object.entries({ ...PRESETS.common, ...preset.settings })));
-    const { anchor, normal, x } = surface();
-    const depth = Number($("depth").value) / 1000;
-    const middle = anchor.map((value, i) => value - depth * normal[i]);
-    this.simulation.travel({ middle, along: x.map((value) => value * preset.half), speed: preset.speed,
-      eased: Boolean(preset.eased) });
+    const preset = PRESETS[$("preset").value];
+    const { anchor, normal, x, reach } = surface();
+    const half = preset?.half ?? Math.min(GHOST.half, 0.8 * Math.min(...reach));
+    const way = { middle: anchor, normal, along: x.map((part) => part * half), speed: preset?.speed ?? GHOST.speed,
+      eased: Boolean(preset?.eased), follows: !preset };
+    this.simulation.send("travel", { way });
+    press("ghost", true);
+  }
+
+  rest() {
+    this.simulation.send("travel", { way: null });
+    press("ghost", false);
   }
 }

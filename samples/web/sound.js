@@ -1,5 +1,9 @@
-// The sound: the worker's samples go into an AudioWorklet's queue. It shares no memory, so any web server will do.
+// The sound of the ticks, as they are felt, by an AudioWorklet's queue. It shares no memory, so any web server will do.
 // SPDX-License-Identifier: MIT
+import { Felt } from "./felt.js";
+import { AT, ROW } from "./rows.js";
+
+const SAMPLE_RATE = 48000;
 const WORKLET = `
 registerProcessor("knurl", class extends AudioWorkletProcessor {
   constructor() {
@@ -32,10 +36,19 @@ registerProcessor("knurl", class extends AudioWorkletProcessor {
 });`;
 
 export class Sound {
+  constructor() {
+    this.setRate(1000);
+  }
+
+  // Hz, of the ticks.
+  setRate(rate) {
+    this.felt = new Felt(rate, SAMPLE_RATE);
+  }
+
   // Call it from a click: browsers allow no sound before. Throws if there is no sound.
   async start() {
     if (!this.context) {
-      await this.attach(new AudioContext({ sampleRate: 48000 }));
+      await this.attach(new AudioContext({ sampleRate: SAMPLE_RATE }));
     }
     await this.context.resume();
     this.on = true;
@@ -55,8 +68,14 @@ export class Sound {
     this.context?.suspend();
   }
 
-  play(samples) {
+  // surfaces: of the scene, for their stiffness.
+  play(rows, surfaces) {
     if (this.on) {
+      const forces = Float64Array.from({ length: rows.length / ROW }, (_, k) => {
+        const at = k * ROW;
+        return rows[at + AT.height] * (surfaces[rows[at + AT.surface]]?.feel[3] ?? 0);
+      });
+      const samples = this.felt.render(forces);
       this.node.port.postMessage(samples, [samples.buffer]);
     }
   }

@@ -12,7 +12,7 @@ async function compile(answer) {
 }
 
 export class Simulation {
-  // Takes the worker and the fetch of WebAssembly that index.html started. Calls ticks({rows, samples, cost})
+  // Takes the worker and the fetch of WebAssembly that index.html started. Calls ticks({rows, heights, cost})
   // some 80 times per second.
   constructor({ worker, wasm }, { ticks, failed }) {
     this.waiting = new Map();
@@ -43,14 +43,9 @@ export class Simulation {
     });
   }
 
-  // Sets the HIP's target; null: no HIP.
-  move(target) {
-    this.worker.postMessage({ kind: "move", target });
-  }
-
-  // Makes the HIP stroke to and fro along a line: {middle, along (m, half its length), speed, eased}.
-  travel(way) {
-    this.worker.postMessage({ kind: "travel", way });
+  // Sends a message without an answer.
+  send(kind, message = {}) {
+    this.worker.postMessage({ kind, ...message });
   }
 }
 

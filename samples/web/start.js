@@ -1,7 +1,24 @@
 // The simulation takes longest to start, so it starts first, before the modules. A page that shows a run (#live) has no
-// simulation.
-// SPDX-License-Identifier: MIT
-if (!new URLSearchParams(location.hash.slice(1)).has("live")) {
+// simulation. Says why, if the page cannot start. SPDX-License-Identifier: MIT
+function refuse(why) {
+  const say = () => {
+    if (!document.documentElement.dataset.ready) {
+      const status = document.getElementById("status");
+      status.textContent = why;
+      status.classList.add("error");
+    }
+  };
+  document.readyState === "loading" ? addEventListener("DOMContentLoaded", say) : say();
+}
+
+// A stricter policy of the server, or a file that is missing.
+addEventListener("securitypolicyviolation", ({ violatedDirective, blockedURI }) =>
+  refuse(`The server's Content-Security-Policy (${violatedDirective}) forbids ${blockedURI}, which this page needs.`));
+addEventListener("error", ({ target }) => target.src && refuse(`${target.src} could not be loaded.`), true);
+
+if (location.protocol === "file:") {
+  refuse("A browser does not run this page from a folder. Serve it: python3 -m http.server, then open http://127.0.0.1:8000/");
+} else if (!new URLSearchParams(location.hash.slice(1)).has("live")) {
   const worker = new Worker("worker.js", { type: "module" });
   worker.onerror = () => { worker.failed = true; }; // until main.js listens
   globalThis.started = { worker, wasm: fetch("knurl.wasm") };

@@ -18,7 +18,7 @@ function tighten({ target }) {
   target.step = target.dataset.step ?? target.step;
 }
 
-// take(feel) is given a material's numbers: ridges along x and y (1/m), amplitude (m), stiffness (N/m), friction.
+// take(feel, color) is given a material's numbers: ridges along x and y (1/m), amplitude (m), stiffness (N/m), friction.
 export function showSwatches(take) {
   for (const { title, color, period, depth, feel, orientation } of MATERIALS) {
     const swatch = document.createElement("button");
@@ -29,7 +29,7 @@ export function showSwatches(take) {
     swatch.setAttribute("aria-label", title);
     swatch.addEventListener("click", async () => {
       loosen(feel);
-      await take(feel);
+      await take(feel, color);
       $("material-text").textContent = sources +
         (orientation ? ` Turned by ${Math.round(orientation * 180 / Math.PI)}°, which this page leaves out.` : "");
     });

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Compiles the library without loop and devices, the glTF loader and web.c to WebAssembly: OUT/knurl.mjs and
+# Compiles the library without loop and devices, the glTF loader and the page's C to WebAssembly: OUT/knurl.mjs and
 # OUT/knurl.wasm. The options that change numbers are those of ../../CMakeLists.txt. usage: wasm.sh OUT
 set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
@@ -26,15 +26,15 @@ compile() {
 export -f compile
 
 cd "$root"
-newest=$(find sdk \( -name '*.h*' -o -name '*.cpp' \) -printf '%T@\n' | sort -n | tail -n 1)
+newest=$(find sdk samples/web \( -name '*.h' -o -name '*.hpp' -o -name '*.cpp' \) -printf '%T@\n' | sort -n | tail -n 1)
 touch -d "@$newest" "$objects/newest"
 touch "$objects/begin"
 # The loader as one file, as in sdk/CMakeLists.txt.
 loader=$objects/gltf.cpp
 find sdk/src/gltf -name '*.cpp' | sort | sed 's|^sdk/src/\(.*\)|#include "\1"|' >"$loader.new"
 cmp -s "$loader.new" "$loader" || mv "$loader.new" "$loader"
-sources=(sdk/src/{vibration,grating,motion,contact,surface,proxy,guard,hip,scene,audio}/*.c "$loader" sdk/src/base/{error,format,heap,number,range}.c
-    sdk/src/base/{format,regular_file,system}_posix.c samples/web/web.c)
+sources=(sdk/src/{vibration,grating,motion,contact,surface,proxy,guard,hip,scene}/*.c "$loader" sdk/src/base/{error,format,heap,number,range}.c
+    sdk/src/base/{format,regular_file,system}_posix.c samples/web/*.c)
 # shellcheck disable=SC2016 # the other shell expands it
 printf '%s\n' "${sources[@]}" |
     xargs -P "$(nproc)" -I {} bash -euo pipefail -c 'compile "$1" "$2" "$3"' compile {} "$objects" "${#sources[@]}"

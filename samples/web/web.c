@@ -1,6 +1,7 @@
-/* Functions for the page's worker, in WebAssembly: one scene with one HIP and its sound. Positions and forces are in
- * scene axes, m and N. SPDX-License-Identifier: MIT */
-#include <knurl/audio.h>
+/* Functions for the page's worker, in WebAssembly: one scene with one HIP, and the same stroke by every method.
+ * Positions and forces are in scene axes, m and N. SPDX-License-Identifier: MIT */
+#include "web.h"
+
 #include <knurl/gltf.h>
 #include <knurl/hip.h>
 #include <knurl/query.h>
@@ -9,12 +10,17 @@
 #include <math.h>
 #include <string.h>
 
-#define ROW 23 /* doubles per tick, see web_tick() */
+#define ROW     23 /* doubles per tick, see web_tick() */
+#define METHODS 3
 
 static knurl_scene *scene;
-static knurl_audio *audio;
 static knurl_hip_desc hip;
 static double quantum; /* m: positions are rounded to it; 0: exact */
+static struct {
+    knurl_grating grating;
+    knurl_grating_state state;
+} others[METHODS]; /* the touched surface by each method */
+static knurl_surface_id other_surface;
 
 /* Applies settings that the page made before the first load. */
 static void begin_hip(void) {
@@ -27,36 +33,31 @@ static void begin_hip(void) {
 
 static knurl_result open_hip(void) {
     knurl_workspace workspace;
-    knurl_audio_desc desc;
     knurl_workspace_set_identity(&workspace); /* device axes are the scene's */
     hip.workspace = &workspace;
-    knurl_audio_desc_init(&desc, sizeof desc);
-    desc.update_rate_hz = hip.update_rate_hz;
-    desc.is_offline = 1; /* the page makes as many samples as ticks */
-    desc.latency_s = 0.0;
-    knurl_audio_destroy(audio);
-    audio = NULL;
-    const knurl_result result = knurl_scene_configure_hip(scene, 0, &hip);
-    return result ? result : knurl_audio_create(&desc, &audio);
+    other_surface = 0;
+    return knurl_scene_configure_hip(scene, 0, &hip);
 }
 
-/* Loads a .glb in place of the present scene. 0, or an error, see web_message(); then the present scene stays. */
-EMSCRIPTEN_KEEPALIVE int web_load(const void *data, uint32_t size, const char *name) {
+knurl_result web_read(const void *data, uint32_t size, const char *name, knurl_scene **out) {
     knurl_scene *fresh = NULL;
     knurl_result result = knurl_scene_create(NULL, &fresh);
     result = result ? result : knurl_gltf_load_memory(fresh, data, size, name, NULL, NULL, NULL);
-    if (!result && knurl_scene_get_surface_count(fresh) == 0) {
-        result = knurl_fail(KNURL_ERROR_FORMAT, "%s: nothing is tagged, so there is nothing to feel", name);
-    }
     result = result ? result : knurl_scene_commit(fresh);
     if (result) {
         knurl_scene_destroy(fresh);
         return result;
     }
-    knurl_scene_destroy(scene);
-    scene = fresh;
+    knurl_scene_destroy(*out);
+    *out = fresh;
+    return KNURL_OK;
+}
+
+/* Loads a .glb in place of the present scene. 0, or an error, see web_message(); then the present scene stays. */
+EMSCRIPTEN_KEEPALIVE int web_load(const void *data, uint32_t size, const char *name) {
+    const knurl_result result = web_read(data, size, name, &scene);
     begin_hip();
-    return open_hip();
+    return result ? result : open_hip();
 }
 
 EMSCRIPTEN_KEEPALIVE const char *web_message(void) {
@@ -67,9 +68,9 @@ EMSCRIPTEN_KEEPALIVE uint32_t web_count(void) {
     return knurl_scene_get_surface_count(scene);
 }
 
-/* A surface's name, or null. numbers: fsx, fsy, amplitude, stiffness, friction, method, anchor (3), normal (3), x (3).
- */
-EMSCRIPTEN_KEEPALIVE const char *web_surface(uint32_t index, double numbers[15]) {
+/* A surface's name, or null. numbers: fsx, fsy, amplitude, stiffness, friction, method, anchor (3), normal (3), x (3),
+ * m to the edge along +x and -x. */
+EMSCRIPTEN_KEEPALIVE const char *web_surface(uint32_t index, double numbers[17]) {
     knurl_surface_info info;
     knurl_surface_info_init(&info, sizeof info);
     knurl_material_desc m;
@@ -84,6 +85,7 @@ EMSCRIPTEN_KEEPALIVE const char *web_surface(uint32_t index, double numbers[15])
     memcpy(numbers + 6, info.anchor, sizeof info.anchor);
     memcpy(numbers + 9, info.anchor_normal, sizeof info.anchor_normal);
     memcpy(numbers + 12, info.anchor_x, sizeof info.anchor_x);
+    memcpy(numbers + 15, info.anchor_reach, 2 * sizeof *info.anchor_reach);
     return info.name;
 }
 
@@ -99,6 +101,7 @@ EMSCRIPTEN_KEEPALIVE int web_feel(uint32_t index, const double numbers[6]) {
     material.stiffness = numbers[3];
     material.friction = numbers[4];
     material.method = (int32_t)numbers[5];
+    other_surface = 0;
     return result ? result : knurl_scene_set_material(scene, surface, &material);
 }
 
@@ -112,10 +115,63 @@ EMSCRIPTEN_KEEPALIVE int web_device(double rate, double resolution, uint32_t pro
     return scene ? open_hip() : KNURL_OK;
 }
 
+/* --- ticks --- */
+
+double web_find_index(const knurl_scene *in, knurl_surface_id surface) {
+    static uint32_t last;
+    if (!surface || knurl_scene_get_surface(in, last) == surface) {
+        return surface ? last : -1.0;
+    }
+    const uint32_t count = knurl_scene_get_surface_count(in);
+    for (uint32_t i = 0; i < count; i++) {
+        if (knurl_scene_get_surface(in, i) == surface) {
+            return last = i;
+        }
+    }
+    return -1.0;
+}
+
+/* Gives each method the touched surface's grating, from its first tick on. */
+static void begin_others(knurl_surface_id surface) {
+    knurl_material_desc m;
+    knurl_material_desc_init(&m, sizeof m);
+    memset(others, 0, sizeof others);
+    other_surface = surface;
+    for (int i = 0; i < METHODS && surface && !knurl_scene_get_material(scene, surface, &m); i++) {
+        knurl_grating *g = &others[i].grating;
+        g->method = KNURL_METHOD_S1 + i;
+        memcpy(g->spatial_frequency, m.spatial_frequency, sizeof m.spatial_frequency);
+        g->amplitude = m.amplitude;
+        g->update_rate_hz = hip.update_rate_hz;
+        g->resolution = quantum;
+    }
+}
+
+/* heights: m, by each method, at the same place and speed. */
+static void step_others(const knurl_tick_output *out, float heights[METHODS]) {
+    const knurl_surface_id surface = out->flags & KNURL_TICK_CONTACT ? out->surface : 0;
+    if (surface != other_surface) {
+        begin_others(surface);
+    }
+    for (int i = 0; i < METHODS; i++) {
+        const knurl_grating *g = &others[i].grating;
+        knurl_grating_output made = {0};
+        double position[2];
+        for (int axis = 0; axis < 2; axis++) {
+            const double fs = g->spatial_frequency[axis];
+            position[axis] = fs > 0.0 ? out->cycles[axis] / fs : 0.0;
+        }
+        if (surface) {
+            knurl_grating_step(g, &others[i].state, position, out->surface_velocity, &made);
+        }
+        heights[i] = (float)made.height;
+    }
+}
+
 /* Ticks at `count` positions (3 doubles each; NaN: no position). rows: force (3), HIP (3), proxy (3), depth, height,
  * f_t, cycles (2), 1 in contact, surface index or -1, t, vx, vy, fs, normal (3); rows.js names them, and knurl run
- * --view sends the same. */
-EMSCRIPTEN_KEEPALIVE void web_tick(uint32_t count, const double *positions, double *rows) {
+ * --view sends the same. heights: by S1, S2 and BANDLIMITED, of the same stroke. */
+EMSCRIPTEN_KEEPALIVE void web_tick(uint32_t count, const double *positions, double *rows, float *heights) {
     for (uint32_t k = 0; k < count; k++) {
         knurl_tick_input in;
         knurl_tick_output out;
@@ -127,7 +183,7 @@ EMSCRIPTEN_KEEPALIVE void web_tick(uint32_t count, const double *positions, doub
             in.position[i] = quantum * floor(in.position[i] / quantum + 0.5);
         }
         (void)knurl_scene_tick(scene, 0, &in, &out);
-        knurl_audio_take(&out, audio);
+        step_others(&out, heights + (size_t)METHODS * k);
         memcpy(row, out.force, sizeof out.force);
         memcpy(row + 3, out.hip, sizeof out.hip);
         memcpy(row + 6, out.proxy, sizeof out.proxy);
@@ -137,10 +193,7 @@ EMSCRIPTEN_KEEPALIVE void web_tick(uint32_t count, const double *positions, doub
         row[12] = out.cycles[0];
         row[13] = out.cycles[1];
         row[14] = (out.flags & KNURL_TICK_CONTACT) != 0;
-        row[15] = -1.0;
-        for (uint32_t i = 0; out.surface && i < knurl_scene_get_surface_count(scene) && i < 64; i++) {
-            row[15] = knurl_scene_get_surface(scene, i) == out.surface ? i : row[15];
-        }
+        row[15] = web_find_index(scene, out.surface);
         row[16] = (double)out.tick / hip.update_rate_hz;
         row[17] = out.surface_velocity[0];
         row[18] = out.surface_velocity[1];
@@ -149,6 +202,14 @@ EMSCRIPTEN_KEEPALIVE void web_tick(uint32_t count, const double *positions, doub
     }
 }
 
-EMSCRIPTEN_KEEPALIVE void web_sound(float *samples, uint32_t count) {
-    knurl_audio_fill(audio, samples, count);
+/* The surface that a straight line meets: line: from (3), to (3); found: point (3), normal (3). 0: none. */
+EMSCRIPTEN_KEEPALIVE int web_cast(const double line[6], double found[6]) {
+    knurl_surface_point point;
+    knurl_surface_point_init(&point, sizeof point);
+    if (!scene || knurl_scene_cast_ray(scene, line, line + 3, &point) || !point.surface) {
+        return 0;
+    }
+    memcpy(found, point.position, sizeof point.position);
+    memcpy(found + 3, point.normal, sizeof point.normal);
+    return 1;
 }

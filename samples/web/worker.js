@@ -1,13 +1,13 @@
-// The haptic thread of the page: ticks the scene in WebAssembly at its update rate, and sends the results some 60 times
+// The haptic thread of the page: ticks the scene in WebAssembly at its update rate, and sends the results some 80 times
 // per second. SPDX-License-Identifier: MIT
+import { Hand } from "./hand.js";
 import makeKnurl from "./knurl.mjs";
-import { ROW } from "./rows.js";
+import { METHODS, ROW } from "./rows.js";
 
-const MOST = 2000; // ticks at once
+const MOST = 2000; // ticks, rays or points at once
 const BATCH_MS = 12;
 const GIVE_UP_MS = 100; // longer gaps, such as a tab in the background, are skipped
-const SMOOTH_S = 0.012; // pointers are sampled 60 to 120 times per second: a filter smooths their steps
-const SAMPLE_RATE = 48000;
+const SURFACE = 17; // numbers of a surface
 
 // The first message has the compiled WebAssembly; earlier messages are answered once all is ready.
 const early = [];
@@ -21,100 +21,75 @@ const knurl = await makeKnurl({
   },
 });
 const memory = {
-  positions: knurl._malloc(MOST * 3 * 8),
+  positions: knurl._malloc(MOST * 6 * 8),
   rows: knurl._malloc(MOST * ROW * 8),
-  numbers: knurl._malloc(15 * 8),
-  samples: knurl._malloc(MOST * 480 * 4),
+  heights: knurl._malloc(MOST * METHODS * 4),
+  numbers: knurl._malloc(SURFACE * 8),
 };
-const state = { loaded: false, rate: 1000, last: 0, target: null, hip: null, speed: [0, 0, 0], way: null,
-  travelled: 0 };
+const state = { loaded: false, rate: 1000, last: 0, ms: 0, ticks: 0 };
 
-function withText(text, use) {
-  const bytes = new TextEncoder().encode(text);
+const doubles = (at, count) => knurl.HEAPF64.slice(at / 8, at / 8 + count);
+const message = (result) => (result ? knurl.UTF8ToString(knurl._web_message()) : "");
+
+// Calls use(address, size) with a copy of the bytes, ended by a 0; undefined without memory for it.
+function withBytes(bytes, use) {
   const at = knurl._malloc(bytes.length + 1);
+  if (!at) {
+    return undefined;
+  }
   knurl.HEAPU8.set(bytes, at);
   knurl.HEAPU8[at + bytes.length] = 0;
   try {
-    return use(at);
+    return use(at, bytes.length);
   } finally {
     knurl._free(at);
   }
 }
 
-function load(bytes, name) {
-  const at = knurl._malloc(Math.max(1, bytes.length));
-  if (!at) {
-    return `${name}: ${bytes.length} bytes are more than this page has memory for`;
-  }
-  knurl.HEAPU8.set(bytes, at);
-  const result = withText(name, (text) => knurl._web_load(at, bytes.length, text));
-  knurl._free(at);
-  if (result) {
-    return knurl.UTF8ToString(knurl._web_message());
-  }
-  state.loaded = true;
-  state.hip = state.target = state.way = null;
-  return "";
+const withText = (text, use) => withBytes(new TextEncoder().encode(text), use);
+
+// Calls a function of a file: use(address, size, name). Returns its error message, or "".
+function withFile(bytes, name, use) {
+  const error = withBytes(new Uint8Array(bytes), (at, size) => withText(name, (text) => message(use(at, size, text))));
+  return error ?? `${name}: ${bytes.byteLength} bytes are more than this page has memory for`;
 }
+
+function cast(from, to) {
+  knurl.HEAPF64.set([...from, ...to], memory.numbers / 8);
+  const found = memory.numbers + 6 * 8;
+  return knurl._web_cast(memory.numbers, found) ? { point: [...doubles(found, 3)], normal: [...doubles(found + 24, 3)] } : null;
+}
+
+const hand = new Hand(cast);
 
 function surfaces() {
   return Array.from({ length: knurl._web_count() }, (_, index) => {
     const name = knurl.UTF8ToString(knurl._web_surface(index, memory.numbers));
-    const n = Array.from(knurl.HEAPF64.subarray(memory.numbers / 8, memory.numbers / 8 + 15));
-    return { name, feel: n.slice(0, 6), anchor: n.slice(6, 9), normal: n.slice(9, 12), x: n.slice(12, 15) };
+    const n = [...doubles(memory.numbers, SURFACE)];
+    return { name, feel: n.slice(0, 6), anchor: n.slice(6, 9), normal: n.slice(9, 12), x: n.slice(12, 15), reach: n.slice(15) };
   });
 }
 
-// Ticks at positions, three numbers each; returns one row per tick.
+// Ticks at positions, three numbers each; returns a row per tick, and the heights by each method.
 function tick(positions) {
   const count = positions.length / 3;
   knurl.HEAPF64.set(positions, memory.positions / 8);
-  knurl._web_tick(count, memory.positions, memory.rows);
-  return knurl.HEAPF64.slice(memory.rows / 8, memory.rows / 8 + count * ROW);
+  const started = performance.now();
+  knurl._web_tick(count, memory.positions, memory.rows, memory.heights);
+  state.ms += performance.now() - started;
+  state.ticks += count;
+  const at = memory.heights / 4;
+  return { rows: doubles(memory.rows, count * ROW), heights: knurl.HEAPF32.slice(at, at + count * METHODS) };
 }
 
-// Renders the sound of `count` ticks.
-function hear(count) {
-  const frames = Math.round((count * SAMPLE_RATE) / state.rate);
-  knurl._web_sound(memory.samples, frames);
-  return knurl.HEAPF32.slice(memory.samples / 4, memory.samples / 4 + frames);
-}
-
-// Moves the HIP to the pointer: a critically damped spring.
-function follow(count) {
-  const positions = new Float64Array(3 * count);
-  const dt = 1 / state.rate;
-  const omega = 2 / SMOOTH_S;
-  if (!state.target) {
-    state.hip = null;
-    return positions.fill(NaN);
+// us per tick, over a thousand or more: clocks of browsers are coarse. Undefined until then.
+function takeCost() {
+  if (state.ticks < 1000) {
+    return undefined;
   }
-  state.hip ??= [...state.target];
-  for (let k = 0; k < count; k++) {
-    for (let i = 0; i < 3; i++) {
-      const away = state.target[i] - state.hip[i];
-      state.speed[i] += dt * (omega * omega * away - 2 * omega * state.speed[i]);
-      state.hip[i] += dt * state.speed[i];
-      positions[3 * k + i] = state.hip[i];
-    }
-  }
-  return positions;
-}
-
-// Moves the HIP to and fro along a line: {middle, along: to its end, speed: m/s, eased: speed is the maximum of a
-// sine}.
-function travel(count) {
-  const positions = new Float64Array(3 * count);
-  const { middle, along, speed, eased } = state.way;
-  const half = Math.hypot(...along);
-  for (let k = 0; k < count; k++) {
-    const way = (state.travelled += speed / state.rate) / half; // in units of half the line
-    const at = eased ? -Math.cos(way) : 1 - Math.abs((way % 4) - 2);
-    for (let i = 0; i < 3; i++) {
-      positions[3 * k + i] = middle[i] + at * along[i];
-    }
-  }
-  return positions;
+  const cost = (1000 * state.ms) / state.ticks;
+  state.ms = state.ticks = 0;
+  return cost;
 }
 
 function tickOn() {
@@ -127,42 +102,61 @@ function tickOn() {
   if (count === 0) {
     return;
   }
+  const ticks = tick(hand.positions(count, state.rate, performance.timeOrigin + state.last));
   state.last += (count * 1000) / state.rate;
-  const started = performance.now();
-  const rows = tick(state.way ? travel(count) : follow(count));
-  const cost = ((performance.now() - started) * 1000) / count;
-  const samples = hear(count);
-  postMessage({ kind: "ticks", rows, samples, cost }, [rows.buffer, samples.buffer]);
+  postMessage({ kind: "ticks", ...ticks, cost: takeCost() }, [ticks.rows.buffer, ticks.heights.buffer]);
+}
+
+function coordinates({ points, depth }) {
+  const found = new Float32Array(points.length / 2);
+  for (let at = 0; at < points.length; at += 6 * MOST) {
+    const some = points.subarray(at, at + 6 * MOST);
+    knurl.HEAPF64.set(some, memory.positions / 8);
+    knurl._web_coordinates(some.length / 6, memory.positions, depth, memory.rows);
+    found.set(knurl.HEAPF32.subarray(memory.rows / 4, memory.rows / 4 + some.length / 2), at / 2);
+  }
+  return { found };
 }
 
 const answers = {
-  load: ({ bytes, name }) => ({ error: load(new Uint8Array(bytes), name), surfaces: surfaces() }),
-  move: ({ target }) => {
-    state.target = target;
-    state.way = null;
+  load: ({ bytes, name }) => {
+    const error = withFile(bytes, name, knurl._web_load);
+    if (!error) {
+      state.loaded = true;
+      hand.rest();
+    }
+    return { error, surfaces: surfaces() };
   },
-  travel: ({ way }) => {
-    state.way = way;
-    state.travelled = 0;
-    state.hip = state.target = null;
+  stroke: ({ rays }) => hand.stroke(rays),
+  lift: ({ t }) => hand.lift(t),
+  hold: (keys) => hand.hold(keys),
+  depth: ({ depth }) => {
+    hand.depth = depth;
   },
+  travel: ({ way }) => (way ? hand.travel(way) : hand.rest()),
   feel: ({ index, feel }) => {
     knurl.HEAPF64.set(feel, memory.numbers / 8);
-    return { error: knurl._web_feel(index, memory.numbers) ? knurl.UTF8ToString(knurl._web_message()) : "" };
+    return { error: message(knurl._web_feel(index, memory.numbers)) };
   },
   device: ({ rate, resolution, protections }) => {
     state.rate = rate;
-    return { error: knurl._web_device(rate, resolution, protections) ? knurl.UTF8ToString(knurl._web_message()) : "" };
+    return { error: message(knurl._web_device(rate, resolution, protections)) };
   },
-  // Plays a new device at given positions, as fast as possible, and then its sound: for comparisons.
+  survey: ({ bytes, name }) => ({ error: withFile(bytes, name, knurl._web_survey) }),
+  coordinates,
+  surveyed: () => knurl._web_survey_end(),
+  tag: ({ bytes, name, node, tag }) => {
+    const error = withFile(bytes, name, (at, size, text) =>
+      withText(JSON.stringify(tag), (json) => knurl._web_tag(at, size, text, node, json)));
+    const at = knurl._web_written();
+    return { error, bytes: error ? null : knurl.HEAPU8.slice(at, at + knurl._web_written_size()).buffer };
+  },
+  // Plays a new device at given positions, as fast as possible: for comparisons.
   play: ({ positions, ...device }) => {
     answers.device(device);
-    const count = positions.length / 3;
     const started = performance.now();
-    const rows = tick(positions);
-    const cost = ((performance.now() - started) * 1000) / count;
-    const samples = Array.from({ length: Math.ceil(count / BATCH_MS) }, (_, k) => [...hear(Math.min(BATCH_MS, count - BATCH_MS * k))]);
-    return { rows, samples: Float32Array.from(samples.flat()), cost };
+    const ticks = tick(positions);
+    return { ...ticks, cost: ((performance.now() - started) * 1000) / (positions.length / 3) };
   },
 };
 

@@ -84,13 +84,12 @@ def method_cs(text, known, default):
 
 def settings_js(text, known, default):
     found = json.loads(re.search(r"const METHODS = (\[.*\]);", text)[1])
-    chosen = int(re.search(r'\$\("method"\)\.value = feel\[5\] \|\| (\d+)', text)[1])
+    chosen = int(re.search(r'setMethod\(feel\[5\] \|\| (\d+)\)', text)[1])
     return (found, chosen), ([known[default], *known.values()], default)
 
 
 def index_html(text, known, default):
-    chooser = re.search(r'<select id="method">(.*?)</select>', text, re.DOTALL)[1]
-    return pairs(r'<option value="(?P<number>\d+)">(?P<name>\w+)</option>', chooser), known
+    return pairs(r'name="method" form="controls" value="(?P<number>\d+)"[^>]*><span>(?P<name>\w+)</span>', text), known
 
 
 def scene_py(text, known, default):
@@ -161,8 +160,9 @@ def completed(path, text, known, fresh, default):
             f'\n    {{"Method", "METHOD_{m.upper()}", KNURL_METHOD_{m.upper()}}},'),
         "bindings/unity/package/Runtime/GratingMethod.cs": (r" = \d+(?=\n)", lambda n, m:
             f",\n\n        /// <summary>{says[m.upper()]}</summary>\n        {title(m)} = {n}"),
-        "samples/web/index.html": (r'<option value="\d">(?:S\d|bandlimited)</option>(?=\n    </select>)', lambda n, m:
-            f'\n      <option value="{n}">{m}</option>'),
+        "samples/web/index.html": (r'<label><input type="radio" name="method".*(?=\n  </fieldset>)', lambda n, m:
+            f'\n    <label><input type="radio" name="method" form="controls" value="{n}"><span>{m}</span><canvas></canvas>'
+            '<output></output></label>'),
     }
     if path in rows:
         text = after_last(rows[path][0], text, [rows[path][1](n, m) for n, m in fresh.items()])

@@ -3,17 +3,20 @@
 // SPDX-License-Identifier: MIT
 import { complaints, finish, runCase } from "./harness.mjs";
 import { cases as equal } from "./equal.mjs";
+import { cases as felt } from "./felt.mjs";
 import { cases as hostile } from "./hostile.mjs";
+import { cases as own } from "./own.mjs";
+import { cases as packed } from "./packed.mjs";
 import { cases as page } from "./page.mjs";
 import { cases as pictures } from "./pictures.mjs";
 import { cases as timed } from "./timed.mjs";
 
 const LANES = 2;
 const SHORT = ["a stroke by the pointer crosses ridges and pushes back", "arrow keys stroke", "axe finds nothing, in light and dark",
-  "a file without tags can be given one, which the tool reads", "forces and sound are the native tick's",
+  "a file without tags is shown; a click gives a part ridges that are felt and saved", "forces are the native tick's, and their sound is played",
   "a hostile file gets a sentence, and what was there goes on"];
 const isChosen = ([name]) => name.includes(process.env.ONLY ?? "") && (!process.env.SHORT || SHORT.includes(name));
-const total = [page, pictures, equal, hostile, timed].reduce((sum, cases) => sum + Object.keys(cases).length, 0);
+const total = [page, pictures, equal, felt, own, packed, hostile, timed].reduce((sum, cases) => sum + Object.keys(cases).length, 0);
 let count = 0;
 let failed = 0;
 
@@ -33,7 +36,7 @@ async function runAll(cases) {
 }
 
 await runAll(Object.entries(timed).filter(isChosen));
-const others = Object.entries({ ...page, ...pictures, ...equal, ...hostile }).filter(isChosen);
+const others = Object.entries({ ...page, ...pictures, ...equal, ...felt, ...own, ...packed, ...hostile }).filter(isChosen);
 await Promise.all(Array.from({ length: LANES }, () => runAll(others)));
 if (complaints.length > 0) {
   failed++;

@@ -18,6 +18,11 @@ function textured(url) {
   model.materials.forEach((material) => {
     material.pbrMetallicRoughness = { baseColorTexture: { index: 0 } };
   });
+  return assemble(whole, size, model);
+}
+
+// A .glb with another JSON, whose own has `size` bytes.
+function assemble(whole, size, model) {
   const text = Buffer.from(JSON.stringify(model));
   const padded = Buffer.concat([text, Buffer.alloc(-text.length & 3, " ")]);
   const bytes = Buffer.concat([whole.subarray(0, 20), padded, whole.subarray(20 + size)]);
@@ -152,6 +157,75 @@ export const cases = {
     assert.match(await status(tab), /^WebAssembly could not be started/);
   },
 
+  async "opened from a folder, the page says how to serve it"() {
+    const tab = await open({ url: `file://${page}/index.html`, waits: false });
+    await tab.waitForSelector("#status.error");
+    assert.match(await status(tab), /Serve it: python3 -m http.server/);
+    complaints.splice(0, complaints.length, ...complaints.filter((text) => !/file:|ERR_FAILED/.test(text))); // the browser's own
+  },
+
+  async "a policy of the server that forbids the page is named"() {
+    const under = (policy) => open({ waits: false, before: (bare) => bare.route("**/", async (route) => {
+      const answer = await route.fetch();
+      await route.fulfill({ response: answer, headers: { ...answer.headers(), "content-security-policy": policy } });
+    }) });
+    const strict = await under("script-src 'self'; worker-src 'self'");
+    await strict.waitForSelector("#status.error");
+    assert.match(await status(strict), /WebAssembly|wasm/);
+    const none = await under("script-src 'none'"); // no script can tell
+    const told = await none.locator("#status").evaluate((part) => getComputedStyle(part, "::after").content);
+    assert.match(told, /server may forbid/);
+    complaints.splice(0, complaints.length, ...complaints.filter((text) => !/Content Security Policy|wasm|WebAssembly/i.test(text)));
+  },
+
+  async "two fingers turn the view, and do not stroke"() {
+    const tab = await open({ hash: "#hand=rests", options: { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true } });
+    const session = await tab.context().newCDPSession(tab);
+    const camera = async () => {
+      await tab.click("#share");
+      await tab.evaluate(() => scrollTo(0, 0));
+      return new URLSearchParams(new URL(tab.url()).hash.slice(1)).get("camera");
+    };
+    const before = await camera();
+    const box = await tab.locator("#view").boundingBox();
+    const at = (dx, dy) => ({ x: Math.round(box.x + box.width / 2 + dx), y: Math.round(box.y + box.height / 2 + dy) });
+    const touch = (type, ...points) => session.send("Input.dispatchTouchEvent", { type, touchPoints: points.map((point, id) => ({ ...point, id })) });
+    await touch("touchStart", at(0, 0));
+    for (let i = 0; i < 10; i++) {
+      await touch("touchMove", at(3 * i, 0));
+      await tab.waitForTimeout(15);
+    }
+    await tab.waitForFunction(() => /force0\.[^0]/.test(document.querySelector("#numbers").textContent));
+    await touch("touchStart", at(30, 0), at(60, 40));
+    for (let i = 0; i < 10; i++) {
+      await touch("touchMove", at(30 + 4 * i, 0), at(60 + 4 * i, 40));
+      await tab.waitForTimeout(15);
+    }
+    await tab.waitForFunction(() => /force0\.00/.test(document.querySelector("#numbers").textContent));
+    await touch("touchEnd");
+    assert.notEqual(await camera(), before, "two fingers turn");
+  },
+
+  async "the seventieth surface has its name, and a ray finds it"() {
+    const whole = readFileSync(join(page, "assets/plate_1d.glb"));
+    const size = whole.readUInt32LE(12);
+    const model = JSON.parse(whole.subarray(20, 20 + size));
+    model.nodes = Array.from({ length: 70 }, (_, i) => ({ mesh: 0, name: `bar ${i}`, translation: [0, 0, -0.03 * i] }));
+    model.scenes[0].nodes = model.nodes.map((_, i) => i);
+    const tab = await open();
+    await drop(tab, assemble(whole, size, model), "many.glb");
+    await tab.waitForFunction(() => /^many.glb: 70 surfaces/.test(document.querySelector("#status").textContent));
+    await tab.evaluate(() => { document.querySelector("#more").open = true; });
+    await tab.selectOption("#surface", { label: "bar 69" });
+    await tab.waitForTimeout(500);
+    await tab.click("#record");
+    await tab.waitForTimeout(300);
+    await tab.click("#record");
+    const [download] = await Promise.all([tab.waitForEvent("download"), tab.click("#save")]);
+    const names = readFileSync(await download.path(), "utf8").trim().split("\n").slice(1).map((line) => line.split(",")[6]);
+    assert.deepEqual([...new Set(names)], ["bar 69"]);
+  },
+
   async "a server that does not know WebAssembly will do"() {
     const tab = await open({ before: (bare) => bare.route("**/knurl.wasm", (route) =>
       route.fulfill({ path: join(page, "knurl.wasm"), contentType: "application/octet-stream" })) });
@@ -163,7 +237,7 @@ export const cases = {
     await tab.click("#sound");
     await tab.waitForSelector("#status.error");
     assert.match(await status(tab), /^There is no sound in this browser/);
-    assert.equal(await tab.isChecked("#sound"), false);
+    assert.equal(await tab.getAttribute("#sound", "aria-pressed"), "false");
     await strokeAcross(tab);
     assert.ok(parseFloat(await shown(tab, "force")) > 0.05);
   },

@@ -1,0 +1,66 @@
+// One stroke by every method: a card each with the spectrum of its height, false tones and push; the chosen one is heard
+// and seen. SPDX-License-Identifier: MIT
+import { $, prepare } from "./page.js";
+import { METHODS } from "./rows.js";
+import { amplitudes, falseTones, findSteady, isRidges } from "./spectrum.js";
+
+const TOP_HZ = 520;
+const SHOWN_S = 1.2; // of history
+
+const cards = [...document.querySelectorAll("#methods label")].map((label) =>
+  ({ canvas: label.querySelector("canvas"), text: label.querySelector("output") }));
+
+// The method that is heard and seen: 1 to METHODS.
+export const method = () => Number($("controls").elements.method.value);
+
+export function setMethod(number) {
+  $("controls").elements.method.value = String(number);
+}
+
+// chosen(): after another method was chosen.
+export function listen(chosen) {
+  $("methods").addEventListener("change", chosen);
+  addEventListener("keydown", ({ key, target, ctrlKey, altKey, metaKey }) => {
+    const isText = target.matches?.("select, input:not([type=radio], [type=range])");
+    if (key >= "1" && key <= String(METHODS) && !isText && !ctrlKey && !altKey && !metaKey) {
+      setMethod(Number(key));
+      chosen();
+    }
+  });
+}
+
+function drawCard({ canvas, text }, lines, rate, frequency, said) {
+  const { context, colour, width, height } = prepare(canvas);
+  const step = rate / (2 * (lines.length - 1));
+  const most = Math.max(1e-9, ...lines);
+  const x = (hz) => (hz / TOP_HZ) * width;
+  context.fillStyle = colour("--line");
+  context.fillRect(0, height - 1, width, 1);
+  lines.forEach((line, k) => {
+    const tall = (line / most) * (height - 3);
+    context.fillStyle = colour(isRidges(k * step, frequency, step) ? "--accent" : "--asked");
+    context.fillRect(x(k * step) - 1, height - 1 - tall, Math.max(1.5, x(step) - 0.5), tall);
+  });
+  text.textContent = said;
+}
+
+// rows: {frequency, way, heights: m by each method}. amplitude: of the touched surface, m.
+export function drawComparison(history, amplitude) {
+  const rows = history.latest(SHOWN_S * history.rate);
+  const steady = rows.length > 0 && rows[0].heights ? findSteady(rows, history.rate) : null;
+  if (!steady) {
+    return; // what was measured last stays
+  }
+  const part = rows.slice(steady.from, steady.from + steady.count);
+  const { frequency } = part[part.length - 1];
+  cards.forEach((card, i) => {
+    const values = part.map(({ heights }) => heights[i]);
+    const lines = amplitudes(values);
+    const mean = Math.abs(values.reduce((sum, value) => sum + value, 0) / values.length);
+    const silent = Math.max(...values.map(Math.abs)) * 20 < amplitude || Math.max(...lines) * 20 < amplitude;
+    const wrong = Math.round(100 * falseTones(lines, history.rate, frequency));
+    const push = amplitude > 0 ? Math.round((100 * mean) / amplitude) : 0;
+    drawCard(card, lines, history.rate, frequency,
+      silent ? "silent" : `${wrong} % false tones${push > 5 ? `, pushes ${push} %` : ""}`);
+  });
+}

@@ -1,0 +1,151 @@
+// Own files: shown without a tag, tagged by a click, saved; links to them. SPDX-License-Identifier: MIT
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { drop, open, page, shown, status, tmp, tool } from "./harness.mjs";
+
+// The demo plate without tags.
+export function bare() {
+  const glb = readFileSync(join(page, "assets/plate_1d.glb"));
+  const size = glb.readUInt32LE(12);
+  const json = glb.toString("utf8", 20, 20 + size).replaceAll("knurl_", "other_");
+  return Buffer.concat([glb.subarray(0, 20), Buffer.from(json), glb.subarray(20 + size)]);
+}
+
+const says = (tab, source) => tab.waitForFunction((text) => new RegExp(text).test(document.querySelector("#status").textContent), source);
+
+async function clickMiddle(tab) {
+  const box = await tab.locator("#view").boundingBox();
+  await tab.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
+}
+
+export const cases = {
+  async "a file without tags is shown; a click gives a part ridges that are felt and saved"() {
+    const tab = await open();
+    await drop(tab, bare(), "bare.glb");
+    await says(tab, "^bare.glb: nothing is tagged yet");
+    assert.equal(await tab.locator("#status.error").count(), 0);
+    assert.ok(await tab.isDisabled("#tag"));
+    await clickMiddle(tab);
+    await says(tab, "^bare.glb: 1 surface to stroke");
+    await tab.waitForFunction(() => /force0\.[^0]/.test(document.querySelector("#numbers").textContent)); // the hand moves over it
+    await tab.evaluate(() => { document.querySelector("#more").open = true; });
+    await tab.fill("#stiffness", "700");
+    await tab.check('[name="method"][value="2"]');
+    await tab.waitForFunction((name) => document.documentElement.dataset.surveyed === name, "bare.glb");
+    const [download] = await Promise.all([tab.waitForEvent("download"), tab.click("#tag")]);
+    assert.equal(download.suggestedFilename(), "bare-tagged.glb");
+    const saved = join(tmp, "bare-tagged.glb");
+    await download.saveAs(saved);
+    execFileSync(tool, ["inspect", saved, "--check"]);
+    const { surfaces } = JSON.parse(execFileSync(tool, ["inspect", saved]));
+    assert.deepEqual(surfaces.map(({ name }) => name), ["bar 1 mm"]);
+    const { spatial_frequency: fs, amplitude, stiffness, method } = surfaces[0].material;
+    assert.deepEqual([fs, amplitude, stiffness, method], [[1000, 0], 0.0002, 700, "S2"]);
+    assert.equal(JSON.parse(await tab.textContent("#extras")).knurl.stiffness, 700);
+    const [before, after] = [bare(), readFileSync(saved)].map((bytes) => bytes.subarray(20 + bytes.readUInt32LE(12)));
+    assert.ok(before.equals(after), "all but the JSON is as it was, byte for byte");
+  },
+
+  async "without a mouse a part is chosen by its name"() {
+    const tab = await open();
+    await drop(tab, bare(), "bare.glb");
+    await says(tab, "^bare.glb: nothing is tagged yet");
+    await tab.selectOption("#part", { label: "bar 2 mm" });
+    await tab.press("#give", "Enter");
+    await says(tab, "^bare.glb: 1 surface to stroke");
+    assert.deepEqual(await tab.locator("#surface option").allTextContents(), ["bar 2 mm"]);
+  },
+
+  async "a link to an own file says which, and sets it once it is opened"() {
+    const tab = await open();
+    await drop(tab, readFileSync(join(page, "assets/grid_2d.glb")), "mine.glb");
+    await says(tab, "^mine.glb: ");
+    await tab.fill("#fsx", "640");
+    await tab.click("#share");
+    await says(tab, "It needs mine.glb");
+    const other = await open({ url: tab.url() });
+    assert.match(await status(other), /^This link is of mine.glb/);
+    await drop(other, readFileSync(join(page, "assets/grid_2d.glb")), "mine.glb");
+    await other.waitForFunction(() => document.querySelector("#fsx").value === "640");
+  },
+
+  async "a link that is pasted into the open page is followed, and Back goes back"() {
+    const tab = await open({ hash: "#hand=rests" });
+    await tab.evaluate(() => { location.hash = "#preset=s1-plays-another-frequency"; });
+    await says(tab, "to stroke$");
+    await tab.waitForFunction(() => /Ridges crossed (89|90)\d, played (9|10)\d /.test(document.querySelector("#speed").textContent));
+    assert.equal(await tab.$eval("#preset", ({ selectedOptions: [{ textContent }] }) => textContent), "S1 plays another frequency");
+    await tab.goBack();
+    await tab.waitForFunction(() => /force0.00/.test(document.querySelector("#numbers").textContent));
+    assert.equal(await tab.inputValue("#preset"), "");
+    assert.equal(await tab.textContent("#preset-text"), "");
+  },
+
+  async "a failure's link plays the same ticks in a fresh browser"() {
+    const places = [];
+    for (let i = 0; i < 2; i++) {
+      const tab = await open({ hash: "#preset=s2-plays-other-cycles-than-are-crossed" });
+      await tab.click("#record");
+      await tab.waitForTimeout(600);
+      await tab.click("#record");
+      const [download] = await Promise.all([tab.waitForEvent("download"), tab.click("#save")]);
+      const lines = readFileSync(await download.path(), "utf8").trim().split("\n").slice(1).map((line) => line.split(","));
+      places.push(new Map(lines.map((cells) => [cells[1], cells.slice(2, 14).join()]))); // x: all that was felt there
+    }
+    const both = [...places[0].keys()].filter((x) => places[1].has(x));
+    const same = both.filter((x) => places[0].get(x) === places[1].get(x));
+    console.log(`  ${both.length} places in both, ${same.length} with the same ticks`);
+    assert.ok(both.length > 100 && same.length === both.length);
+  },
+
+  async "twenty models leave nothing behind"() {
+    const tab = await open({ before: (bare_) => bare_.addInitScript(() => {
+      globalThis.held = { Buffer: 0, Texture: 0 };
+      for (const kind of Object.keys(globalThis.held)) {
+        for (const [act, change] of [["create", 1], ["delete", -1]]) {
+          const real = WebGL2RenderingContext.prototype[act + kind];
+          WebGL2RenderingContext.prototype[act + kind] = function (...rest) {
+            globalThis.held[kind] += change;
+            return real.apply(this, rest);
+          };
+        }
+      }
+    }) });
+    const load = async (name) => {
+      await tab.evaluate(() => { delete document.documentElement.dataset.surveyed; });
+      await drop(tab, readFileSync(join(page, "assets", name)), name);
+      await tab.waitForSelector("html[data-surveyed]");
+      await tab.waitForTimeout(100);
+      return tab.evaluate(() => ({ ...globalThis.held }));
+    };
+    await load("grid_2d.glb");
+    const first = await load("plate_1d.glb");
+    for (let i = 0; i < 9; i++) {
+      await load("grid_2d.glb");
+    }
+    assert.deepEqual(await load("plate_1d.glb"), first);
+    console.log(`  ${first.Buffer} buffers and ${first.Texture} textures, after 2 models and after 12`);
+  },
+
+  async "the sliders are those of the surface that is stroked, and its ridges follow"() {
+    const tab = await open({ hash: "#hand=rests", options: { viewport: { width: 1280, height: 800 } } });
+    await tab.waitForSelector("html[data-surveyed]");
+    const box = await tab.locator("#view").boundingBox();
+    await tab.mouse.move(box.x + box.width / 2, box.y + 0.68 * box.height);
+    await tab.mouse.down();
+    for (let i = 0; i < 20; i++) {
+      await tab.mouse.move(box.x + box.width / 2 + 4 * i, box.y + 0.68 * box.height);
+      await tab.waitForTimeout(10);
+    }
+    await tab.waitForFunction(() => document.querySelector("#surface").selectedOptions[0].textContent === "bar 2 mm");
+    assert.equal(await tab.inputValue("#fsx"), "500");
+    await tab.fill("#fsx", "300");
+    await tab.mouse.move(box.x + box.width / 2, box.y + 0.68 * box.height, { steps: 40 });
+    await tab.waitForTimeout(200);
+    assert.equal(await tab.inputValue("#fsx"), "300", "the stroked surface has it now");
+    assert.ok(parseFloat(await shown(tab, "cycles crossed")) > 3);
+    await tab.mouse.up();
+  },
+};
