@@ -11,11 +11,13 @@ import { History, drawScope } from "./scope.js";
 import { Settings, showFeel, showOutputs } from "./settings.js";
 import { Sound } from "./sound.js";
 import { Simulation, watch } from "./sources.js";
+import { offer } from "./vibrate.js";
 
 const PANELS_MS = 100; // between drawings of curves and numbers
 const NET_S = 0.05;
 const history = new History();
 const sound = new Sound();
+const vibrate = offer();
 const ticks = { latest: null, crossed: 0, played: 0, missed: 0, cost: null };
 let simulation = null; // or null: the page shows a run of the tool
 let rate = 1000; // Hz, of the source
@@ -37,6 +39,7 @@ function take(rows, heights = null) {
     ticks.latest = row;
   }
   sound.play(rows, scene.surfaces);
+  vibrate(ticks.crossed, ticks.latest?.[AT.frequency] ?? 0, performance.now());
 }
 
 function arrive(rows, heights) {

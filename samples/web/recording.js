@@ -1,5 +1,5 @@
 // Records and replays ticks, and reads and writes them as CSV files. SPDX-License-Identifier: MIT
-import { $, save, scene, tell } from "./page.js";
+import { $, isPressed, press, save, scene, tell } from "./page.js";
 import { AT, ROW, fromCsv, toCsv } from "./rows.js";
 import { replay } from "./sources.js";
 
@@ -22,7 +22,7 @@ export class Recording {
   }
 
   get isRecording() {
-    return $("record").ariaPressed === "true";
+    return isPressed("record");
   }
 
   add(rows) {
@@ -43,12 +43,12 @@ export class Recording {
     this.endReplay();
     this.parts = [];
     this.count = 0;
-    $("record").ariaPressed = "true";
+    press("record", true);
     tell("Recording…");
   }
 
   finish() {
-    $("record").ariaPressed = "false";
+    press("record", false);
     $("replay").disabled = $("save").disabled = this.count < 2;
     tell(`${this.count} ticks are recorded`);
   }
@@ -67,7 +67,7 @@ export class Recording {
     const rows = this.rows();
     const seconds = rows[rows.length - ROW + AT.time] - rows[AT.time];
     this.begin(seconds > 0 ? Math.round((this.count - 1) / seconds) : 1000);
-    $("replay").ariaPressed = "true";
+    press("replay", true);
     this.stop = replay(rows, { rows: this.show, ended: () => {
       this.endReplay();
       tell("The recording is over.");
@@ -78,7 +78,7 @@ export class Recording {
     if (this.stop) {
       this.stop();
       this.stop = null;
-      $("replay").ariaPressed = "false";
+      press("replay", false);
       this.end();
     }
   }

@@ -1,6 +1,6 @@
 // Settings of surface and device; links and the failures' catalogue set them. SPDX-License-Identifier: MIT
 import { listen, method, setMethod } from "./compare.js";
-import { $, press, scene, surface, tell } from "./page.js";
+import { $, isPressed, press, scene, surface, tell } from "./page.js";
 import { PRESETS } from "./presets.js";
 import { showSwatches } from "./swatches.js";
 
@@ -79,7 +79,7 @@ export class Settings {
       scene.view?.paint(index, color);
     });
     listen(() => this.setMethods());
-    $("ghost").addEventListener("click", () => ($("ghost").getAttribute("aria-pressed") === "true" ? this.rest() : this.move()));
+    $("ghost").addEventListener("click", () => (isPressed("ghost") ? this.rest() : this.move()));
   }
 
   async send(index, feel) {
@@ -122,7 +122,7 @@ export class Settings {
 
   chooseSurface() {
     showFeel();
-    if ($("ghost").getAttribute("aria-pressed") === "true") {
+    if (isPressed("ghost")) {
       this.move();
     }
   }

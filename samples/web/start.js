@@ -8,7 +8,11 @@ function refuse(why) {
       status.classList.add("error");
     }
   };
-  document.readyState === "loading" ? addEventListener("DOMContentLoaded", say) : say();
+  if (document.readyState === "loading") {
+    addEventListener("DOMContentLoaded", say);
+  } else {
+    say();
+  }
 }
 
 // A stricter policy of the server, or a file that is missing.

@@ -104,8 +104,9 @@ export const cases = {
       `by one, ${native_us.toFixed(2)} us: ratio ${(warm / native_us).toFixed(1)}`);
     assert.ok(most > 0.1);
     assert.ok(apart < 1e-9);
-    const samples = new Felt(1000).render(native.map((cells) => STIFFNESS * Number(cells[10]))); // the tool's heights
-    const heard = await playThroughWorklet(tab, answer.rows);
+    const part = native.slice(0, 480); // 0.48 s
+    const samples = new Felt(1000).render(part.map((cells) => STIFFNESS * Number(cells[10]))); // the tool's heights
+    const heard = await playThroughWorklet(tab, answer.rows.slice(0, ROW * part.length));
     const begin = samples.findIndex((value) => value !== 0);
     const late = heard.findIndex((value) => value !== 0) - begin;
     const played = distance([...samples], heard.slice(late));

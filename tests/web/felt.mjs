@@ -3,8 +3,9 @@
 import assert from "node:assert/strict";
 import { Felt } from "../../samples/web/felt.js";
 import { Hand } from "../../samples/web/hand.js";
+import { Vibration } from "../../samples/web/vibrate.js";
 import { amplitudes, falseTones, findSteady } from "../../samples/web/spectrum.js";
-import { open, ROW } from "./harness.mjs";
+import { open, ROW, shown } from "./harness.mjs";
 
 const FRAME_MS = 1000 / 60;
 const BATCH_MS = 12;
@@ -159,6 +160,43 @@ export const cases = {
     const silent = (await play(await open(), [{ method: 1, hz: 1000 }]))[0];
     const rest = new Felt(1000).render(heightsFelt(silent).slice(60).map((height) => 400 * height)).slice(24000);
     assert.ok(Math.max(...rest.map(Math.abs)) < 1e-6, "S1 at the update rate is silent");
+  },
+
+  async "a phone's motor pulses once a ridge, and buzzes where it cannot follow"() {
+    const calls = [];
+    const motor = new Vibration((ms) => calls.push(ms));
+    let crossed = 0;
+    const stroke = (hz, seconds, begin) => {
+      for (let ms = 0; ms < 1000 * seconds; ms += 12) {
+        motor.take(crossed += 0.012 * hz, hz, begin + ms);
+      }
+    };
+    stroke(18, 2, 0);
+    assert.equal(calls.length, Math.floor(crossed), "a pulse a ridge");
+    assert.ok(calls.every((ms) => ms === 15));
+    calls.length = 0;
+    stroke(200, 1, 2000);
+    assert.ok(calls.length >= 15 && calls.length <= 21 && calls.every((ms) => ms === 80), `${calls}`);
+    stroke(0, 0.1, 3000);
+    assert.equal(calls.at(-1), 0, "at rest it stops");
+    assert.equal(calls.filter((ms) => ms === 0).length, 1);
+  },
+
+  async "the motor is offered on a phone, and pulses as ridges are crossed"() {
+    const tab = await open({ hash: "#fsx=150", options: { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true },
+      before: (bare) => bare.addInitScript(() => {
+        globalThis.pulses = 0;
+        navigator.vibrate = (ms) => { globalThis.pulses += ms > 0 ? 1 : 0; };
+      }) });
+    assert.equal(await tab.evaluate(() => globalThis.pulses), 0, "not before it is asked for");
+    await tab.click("#vibrate");
+    const before = parseFloat(await shown(tab, "cycles crossed"));
+    await tab.waitForTimeout(1500);
+    const [pulses, after] = [await tab.evaluate(() => globalThis.pulses), parseFloat(await shown(tab, "cycles crossed"))];
+    console.log(`  ${pulses} pulses for ${(after - before).toFixed(1)} ridges`);
+    assert.ok(Math.abs(pulses - (after - before)) <= 5, `${pulses} of ${after - before}`);
+    const desktop = await open();
+    assert.equal(await desktop.isVisible("#vibrate"), false);
   },
 
   async "a steady part is found between turns"() {

@@ -100,6 +100,14 @@ export const cases = {
     assert.ok(both.length > 100 && same.length === both.length);
   },
 
+  async "nothing moves by itself where that is not wanted"() {
+    const tab = await open({ options: { viewport: { width: 800, height: 600 }, reducedMotion: "reduce" } });
+    await tab.waitForTimeout(300);
+    assert.equal(await shown(tab, "force"), "0.00 N");
+    await tab.click("#ghost");
+    await tab.waitForFunction(() => /force0\.[^0]/.test(document.querySelector("#numbers").textContent));
+  },
+
   async "twenty models leave nothing behind"() {
     const tab = await open({ before: (bare_) => bare_.addInitScript(() => {
       globalThis.held = { Buffer: 0, Texture: 0 };
