@@ -11,7 +11,7 @@ import xml.etree.ElementTree as ElementTree
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 OUT = os.path.join(HERE, "addons", "knurl", "csharp", "Knurl.cs")
-CLASSES = ("KnurlGrating", "KnurlSurface", "KnurlDevice")
+CLASSES = ("KnurlGrating", "KnurlSurface", "KnurlDevice", "KnurlEffect")
 
 # Type in the class reference: type in C#, and the call that extracts it from a Variant.
 TYPES = {"bool": ("bool", "AsBool()"), "int": ("long", "AsInt64()"), "float": ("double", "AsDouble()"),

@@ -88,7 +88,7 @@ def write_class(name):
 
 def main():
     stale = 0
-    for name in ("KnurlGrating", "KnurlSurface", "KnurlDevice"):
+    for name in ("KnurlGrating", "KnurlSurface", "KnurlDevice", "KnurlEffect"):
         path = os.path.join(OUT, name + ".gd")
         text = write_class(name)
         if "--check" not in sys.argv[1:]:

@@ -85,6 +85,20 @@ TEST(each_kind_has_its_formulas_force_in_every_tick) {
     }
 }
 
+TEST(an_axis_may_have_any_length) {
+    static const double sizes[] = {1e-160, 1e-3, 1.0, 5e8};
+    for (size_t i = 0; i < COUNT_OF(sizes); i++) {
+        SCOPED_SCENE *scene = free_scene();
+        knurl_effect effect = effect_of(KNURL_EFFECT_FORCE);
+        effect.axis[0] = 0.6 * sizes[i];
+        effect.axis[1] = -0.8 * sizes[i];
+        set(scene, &effect, 1, 0.0);
+        const knurl_tick_output out = tick_at(scene, 0.0, 0.0, 0.0);
+        CHECK_VECTOR(out.force, 2.0 * 0.6, -2.0 * 0.8, 0.0, i ? AS_ONE : 0.01);
+        CHECK_CLOSE(vec3_length(out.force), 2.0, AS_ONE);
+    }
+}
+
 TEST(forces_of_all_effects_and_of_a_surface_add_up) {
     surface_parts parts = surface_plane();
     SCOPED_SCENE *scene = scene_of(&parts);

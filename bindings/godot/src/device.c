@@ -1,6 +1,7 @@
 /* A KnurlDevice's life: open, run, stop. SPDX-License-Identifier: MIT */
 #include "device.h"
 
+#include "effect.h"
 #include "explain.h"
 #include "follow.h"
 #include "signals.h"
@@ -151,6 +152,7 @@ void device_release(device *d) {
         knurl_session_close(d->session);
     }
     if (d->slot >= 0) {
+        effects_take_off(d);
         for (surface *s = surfaces, *next; s; s = next) {
             next = s->next;
             follow_remove(d, s);
@@ -333,6 +335,7 @@ void device_process(device *d) {
         set_clocks(d, delta);
         device_move_workspace(d);
         follow_all(d);
+        effects_follow(d, delta);
         knurl_session_update(d->session);
     }
     if (d->runs || (d->wants_start && d->retries_in <= 0.0)) {

@@ -1,5 +1,6 @@
 /* Entry point of the extension. SPDX-License-Identifier: MIT */
 #include "device.h"
+#include "effect.h"
 #include "register.h"
 #include "signals.h"
 #include "sound.h"
@@ -9,7 +10,7 @@
 /* The class reference, embedded from doc_classes/ by the build: XML documents, ended by null. */
 extern const char *const knurl_godot_documents[];
 
-static const gd_class *const classes[] = {&grating_class,      &surface_class,        &device_class,
+static const gd_class *const classes[] = {&grating_class,      &surface_class,        &device_class, &effect_class,
                                           &sound_stream_class, &sound_playback_class, &teller_class};
 
 enum { CLASS_COUNT = sizeof classes / sizeof *classes };

@@ -127,6 +127,7 @@ void knurl_effects_place(knurl_effects *made, const knurl_effect *effects, uint3
         placed->effect = effects[i];
         if (kinds[effects[i].kind].has_axis) {
             vec3_normalise(placed->effect.axis);
+            vec3_normalise(placed->effect.axis); /* the square of a tiny one lost digits */
         }
         if (before && i < before->count && before->list[i].effect.kind == effects[i].kind && seconds > period) {
             const knurl_placed_effect *old = &before->list[i];

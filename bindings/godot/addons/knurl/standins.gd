@@ -11,7 +11,7 @@ extends RefCounted
 const SOURCE := "res://addons/knurl/standins/"
 const ACTIVE := "res://addons/knurl/standins_active/"
 const EXTENSION := "res://addons/knurl/knurl.gdextension"
-const BASES := {"KnurlGrating": "Resource", "KnurlSurface": "Node3D", "KnurlDevice": "Node3D"}
+const BASES := {"KnurlGrating": "Resource", "KnurlSurface": "Node3D", "KnurlDevice": "Node3D", "KnurlEffect": "Node3D"}
 const LOADER := "KnurlStandinLoader"
 
 

@@ -283,6 +283,7 @@ namespace Knurl
                 NativeMethods.knurl_session_close(session);
                 while (NativeMethods.knurl_session_next_event(session, &ignored) != 0) { }
             }
+            DropEffects();
             if (following != null)
             {
                 following.Clear();
@@ -336,6 +337,7 @@ namespace Knurl
                 MoveWorkspace(); // before the end of a clutch: a scale set meanwhile zooms about the HIP
                 TellSettings(false);
                 following.Follow(layers);
+                TellEffects();
                 React();
                 TellEvents();
                 TellRidges();

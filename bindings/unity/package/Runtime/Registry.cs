@@ -1,4 +1,4 @@
-// All surfaces and devices. SPDX-License-Identifier: MIT
+// All surfaces, effects and devices. SPDX-License-Identifier: MIT
 using System.Collections.Generic;
 using UnityEngine;
 
@@ -13,6 +13,9 @@ namespace Knurl
 
         /// <summary>The devices with a session: they run, or have loaded a file.</summary>
         internal static readonly List<KnurlDevice> Devices = new List<KnurlDevice>();
+
+        /// <summary>The enabled effects, in the order of enabling: the library knows them by their index.</summary>
+        internal static readonly List<KnurlEffect> Effects = new List<KnurlEffect>();
 
         static bool isHooked;
 
@@ -61,6 +64,7 @@ namespace Knurl
         {
             StopAll();
             Surfaces.Clear();
+            Effects.Clear();
             Devices.Clear();
             Library.ForgetFailure();
             if (!isHooked)

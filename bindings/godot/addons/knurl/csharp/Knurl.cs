@@ -451,4 +451,69 @@ namespace Knurl
         /// <summary>No fault: the device is connected again.</summary>
         Reconnected = 33,
     }
+
+    /// <summary>A spring, notches, a guide or a liquid that is felt without a surface.</summary>
+    public sealed class KnurlEffect
+    {
+        /// <summary>The engine's object.</summary>
+        public readonly Node3D Object;
+
+        KnurlEffect(Node3D of) { Object = of; }
+
+        /// <summary>Creates a new object.</summary>
+        public static KnurlEffect Create() { return Of(ClassDB.Instantiate("KnurlEffect").AsGodotObject()); }
+
+        /// <summary>Wraps an object; null if it is not of this class.</summary>
+        public static KnurlEffect Of(GodotObject of)
+        {
+            return of != null && of.IsClass("KnurlEffect") ? new KnurlEffect((Node3D)of) : null;
+        }
+
+        /// <summary>The effect's axis in the node's space: along a line, across a plane, along notches, the direction
+        /// of a force.</summary>
+        public Vector3 Axis { get { return Object.Get("axis").AsVector3(); } set { Object.Set("axis", value); } }
+
+        /// <summary>Damping, in N s/m, 0 to 1000.</summary>
+        public double Damping { get { return Object.Get("damping").AsDouble(); } set { Object.Set("damping", value); } }
+
+        /// <summary>Whether it is felt.</summary>
+        public bool Enabled { get { return Object.Get("enabled").AsBool(); } set { Object.Set("enabled", value); } }
+
+        /// <summary>What it does.</summary>
+        public long Kind { get { return Object.Get("kind").AsInt64(); } set { Object.Set("kind", value); } }
+
+        /// <summary>It is felt by devices that have one of these layers.</summary>
+        public long Layers { get { return Object.Get("layers").AsInt64(); } set { Object.Set("layers", value); } }
+
+        /// <summary>The longest force of this effect, in N; of a Force the force itself.</summary>
+        public double MaxForce { get { return Object.Get("max_force").AsDouble(); } set { Object.Set("max_force", value); } }
+
+        /// <summary>Metres between two notches of a Detent.</summary>
+        public double Spacing { get { return Object.Get("spacing").AsDouble(); } set { Object.Set("spacing", value); } }
+
+        /// <summary>Stiffness, in N/m, 0 or 1 and more; of a Detent at the bottom of a notch.</summary>
+        public double Stiffness { get { return Object.Get("stiffness").AsDouble(); } set { Object.Set("stiffness", value); } }
+    }
+
+    /// <summary>Kind of KnurlEffect.</summary>
+    public enum KnurlEffectKind : long
+    {
+        /// <summary>Pulls to the node's origin.</summary>
+        Spring = 1,
+
+        /// <summary>Notches along the axis, one of them at the node's origin.</summary>
+        Detent = 2,
+
+        /// <summary>Resists motion, as a thick liquid does.</summary>
+        Damper = 3,
+
+        /// <summary>Holds the finger on the line through the node's origin along the axis.</summary>
+        Line = 4,
+
+        /// <summary>Holds the finger in the plane through the node's origin across the axis, from both sides.</summary>
+        Plane = 5,
+
+        /// <summary>A constant force along the axis.</summary>
+        Force = 6,
+    }
 }
