@@ -30,7 +30,7 @@ run_tests() {
     ! wanted unity || prepare_unity || echo "run: SKIPPED: tests of the Unity package's C#: see above" >&2
     ! wanted python || (need_packages "${PYTHON_PACKAGES[@]}") ||
         echo "run: SKIPPED: tests of the Python module: see above" >&2
-    ! wanted blender || (need_packages blender && need_npm) ||
+    ! wanted blender || (need_packages blender xvfb xauth && need_npm) ||
         echo "run: SKIPPED: tests of the Blender extension: see above" >&2
     ! wanted web || prepare_web "${labels[@]}" || echo "run: SKIPPED: the page in a browser: see above" >&2
     [ -z "$whole" ] || targets=()

@@ -67,10 +67,23 @@ try() {
     ran=1
 }
 
+# The drawing itself needs a window.
+window() {
+    local log=$folder/window.log
+    command -v xvfb-run >/dev/null || { skip 'ridges in a window: there is no xvfb-run'; return 0; }
+    rm -rf "${folder:?}/home"
+    mkdir "$folder/home"
+    BLENDER_USER_RESOURCES=$folder/home timeout 200 xvfb-run -a -s '-screen 0 800x600x24' blender --factory-startup \
+        --window-geometry 0 0 640 480 --python "$here/window.py" -- "$tools" "$zip" >"$log" 2>&1 </dev/null &&
+        grep -q '^window: ok' "$log" || { cat "$log" >&2; echo "blender: ridges in a window: failed" >&2; exit 1; }
+    echo 'blender: ridges in a window: ok'
+}
+
 if [ $# -eq 0 ]; then
     if command -v blender >/dev/null; then
         try "$(blender --version | head -n 1)" blender --background --factory-startup --python-exit-code 1 \
             --python "$here/main.py" --
+        window
     else
         skip './run test blender installs it'
     fi

@@ -4,7 +4,7 @@ import os
 import sys
 
 import installed
-from installed import NAME, bpy
+from installed import NAME, addon_utils, bpy
 
 
 class Data(installed.Case):
@@ -46,6 +46,16 @@ class Data(installed.Case):
             loaded = bpy.context.object
             self.assertEqual(self.tag.read(loaded.active_material), later)
             bpy.data.objects.remove(loaded)
+
+    def test_other_exporters_write_the_properties_too(self):
+        addon_utils.enable("io_scene_fbx")
+        self.material.knurl_on = True
+        path = os.path.join(self.folder.name, "plane.fbx")
+        bpy.ops.export_scene.fbx(filepath=path, use_custom_props=True)
+        with open(path, "rb") as file:
+            data = file.read()
+        for key in self.tag.DEFAULT:
+            self.assertIn(b"knurl_" + key.encode(), data)
 
     def test_a_setting_is_undone_and_done_again(self):
         bpy.context.preferences.edit.use_global_undo = True
