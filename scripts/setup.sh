@@ -2,7 +2,7 @@
 # shellcheck disable=SC2034 # the other parts use its variables
 
 BUILD_PACKAGES=(g++ cmake ninja-build pkg-config libtinygltf-dev nlohmann-json3-dev libglm-dev libusb-1.0-0-dev
-    libhidapi-dev libwebsockets-dev libjsmn-dev libcmocka-dev libkissfft-dev umockdev libumockdev-dev python3)
+    libhidapi-dev libwebsockets-dev libjsmn-dev libcmocka-dev libkissfft-dev libpng-dev libjpeg-dev umockdev libumockdev-dev python3)
 DEMO_PACKAGES=(g++ cmake ninja-build libtinygltf-dev nlohmann-json3-dev libglm-dev python3)
 FUZZ_PACKAGES=(clang llvm libclang-rt-dev)
 PLOT_PACKAGES=(python3 python3-numpy python3-matplotlib)

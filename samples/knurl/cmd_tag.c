@@ -2,56 +2,12 @@
 #include "os.h"
 #include "tag.h"
 #include "tool.h"
+#include "whole_file.h"
 
 #include <knurl/knurl.h>
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-
-typedef struct bytes {
-    unsigned char *data;
-    size_t size;
-} bytes;
-
-/* --- files --- */
-
-static int read_whole(const char *path, bytes *file) {
-    const char *why = NULL;
-    FILE *stream = os_open_input(path, &why);
-    size_t room = 0;
-    size_t got = 1;
-    if (!stream) {
-        return tool_error(TOOL_FAILURE, "%s: cannot be read: %s", path, why ? why : strerror(errno));
-    }
-    while (got > 0) {
-        if (file->size == room) {
-            room = room ? 2 * room : (size_t)1 << 16;
-            unsigned char *more = room > TAG_BYTES_MAX ? NULL : realloc(file->data, room);
-            if (!more) {
-                (void)fclose(stream);
-                return tool_error(TOOL_FAILURE, "%s: expected a file of at most 1 GiB that fits into memory", path);
-            }
-            file->data = more;
-        }
-        got = fread(file->data + file->size, 1, room - file->size, stream);
-        file->size += got;
-    }
-    const int failed = ferror(stream);
-    (void)fclose(stream);
-    return failed ? tool_error(TOOL_FAILURE, "%s: cannot be read", path) : TOOL_OK;
-}
-
-static void keep_bytes(void *user, const void *data, uint64_t size) {
-    bytes *file = user;
-    unsigned char *copy = malloc((size_t)size);
-    free(file->data);
-    file->data = copy;
-    file->size = copy ? (size_t)size : 0;
-    if (copy) {
-        memcpy(copy, data, file->size);
-    }
-}
 
 /* --- objects --- */
 
@@ -89,7 +45,7 @@ static void match_index(void *user, const char *array, uint32_t index, const cha
 }
 
 /* The object that the options name: by its name, or if no object has that, by its index. */
-static int find_object(const bytes *file, const char *path, search *s) {
+static int find_object(const whole_file *file, const char *path, search *s) {
     if (knurl_gltf_list_tags(file->data, file->size, path, match, s)) {
         return tool_library_error(TOOL_FAILURE, NULL);
     }
@@ -119,7 +75,7 @@ static void list_object(void *user, const char *array, uint32_t index, const cha
     json_close(json, '}');
 }
 
-static int list(const bytes *file, const char *path, int pretty) {
+static int list(const whole_file *file, const char *path, int pretty) {
     json_writer json;
     search s = {"", NULL, 0, 0, 0};
     if (knurl_gltf_list_tags(file->data, file->size, path, match, &s)) { /* before anything is printed */
@@ -136,7 +92,7 @@ static int list(const bytes *file, const char *path, int pretty) {
 
 /* Loads the tagged file as `run` would, from the folder that it is written to. A file that would not load is not
  * written. */
-static int check_result(const bytes *file, const char *out) {
+static int check_result(const whole_file *file, const char *out) {
     char folder[4096];
     knurl_scene *scene = NULL;
     knurl_gltf_report report;
@@ -157,7 +113,7 @@ static int check_result(const bytes *file, const char *out) {
     return TOOL_OK;
 }
 
-static int write_file(const bytes *file, const char *out) {
+static int write_file(const whole_file *file, const char *out) {
     out_file target;
     memset(&target, 0, sizeof target);
     if (out_open(&target, out)) {
@@ -170,14 +126,17 @@ static int write_file(const bytes *file, const char *out) {
     return out_keep(&target) ? TOOL_FAILURE : TOOL_OK;
 }
 
-static int edit(bytes *file, const char *path, const search *object, const tag_options *options) {
-    const char *patches[] = {options->preset, options->keys};
-    for (int i = 0; i < 2; i++) {
+/* found: the keys from a picture, or "". Those that are given are set last. */
+static int edit(whole_file *file, const char *path, const search *object, const tag_options *options,
+                const char *found) {
+    const char *patches[] = {options->preset, found[0] ? found : NULL, options->keys};
+    for (int i = 0; i < 3; i++) {
         const char *patch = options->remove ? NULL : patches[i];
         if (!options->remove && !patch) {
             continue;
         }
-        if (knurl_gltf_set_tag(file->data, file->size, path, object->array, object->index, patch, keep_bytes, file)) {
+        if (knurl_gltf_set_tag(file->data, file->size, path, object->array, object->index, patch, whole_file_replace,
+                               file)) {
             return tool_library_error(TOOL_FAILURE, "tag");
         }
         if (!file->data) {
@@ -187,14 +146,25 @@ static int edit(bytes *file, const char *path, const search *object, const tag_o
     return TOOL_OK;
 }
 
-static int tag_file(bytes *file, const char *path, const tag_options *options) {
+static int searches(const tag_options *options) {
+    return options->texture.from_texture || options->texture.from_picture;
+}
+
+static int tag_file(whole_file *file, const char *path, const tag_options *options) {
     if (options->list) {
         return list(file, path, options->pretty);
     }
     search object = {options->array, options->object, 0, 0, 0};
     const char *out = options->in_place ? path : options->out;
+    char found[256] = "";
     int code = find_object(file, path, &object);
-    code = code ? code : edit(file, path, &object, options);
+    if (code == TOOL_OK && searches(options)) {
+        code = texture_keys(&options->texture, file, path, object.array, object.index, !out, options->pretty, found);
+    }
+    if (code || !out) {
+        return code;
+    }
+    code = edit(file, path, &object, options, found);
     code = code || options->remove ? code : check_result(file, out);
     code = code ? code : write_file(file, out);
     if (code == TOOL_OK && strcmp(out, "-") != 0) {
@@ -206,13 +176,17 @@ static int tag_file(bytes *file, const char *path, const tag_options *options) {
 int cmd_tag(int argc, char **argv) {
     tag_options options;
     const char *path = NULL;
-    bytes file = {NULL, 0};
+    whole_file file = {NULL, 0};
     int code = tag_read_options(argc, argv, &options, &path);
+    if (code == TOOL_OK && !path) { /* an image file alone */
+        char found[256];
+        return texture_keys(&options.texture, NULL, NULL, NULL, 0, 1, options.pretty, found);
+    }
     if (code == TOOL_OK) {
         if (!options.in_place) {
             out_protect(path);
         }
-        code = read_whole(path, &file);
+        code = whole_file_read(path, &file);
         code = code ? code : tag_file(&file, path, &options);
     }
     free(file.data);

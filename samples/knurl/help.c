@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define OPTIONS_MAX 20
+#define OPTIONS_MAX 26
 #define INDENT      30
 
 typedef struct help_option {
@@ -76,6 +76,11 @@ static const help_command commands[] = {
       {"--coordinates", "auto|box", "box: ridges by positions instead of UVs"},
       {"--method", METHODS, "the spatial method"},
       {"--smooth", "yes|no", "no: as its triangles, though the mesh has normals; yes: smooth, though it has none"},
+      {"--from-texture", "", "finds the ridges in the material's normal, occlusion or base colour texture"},
+      {"--from-picture", "FILE", "finds them in a PNG or JPEG picture: a photograph, a scan, a height or normal map"},
+      {"--picture-size", "LENGTH[,LENGTH]", "the picture's width, and height, on the surface: 40mm"},
+      {"--picture-depth", "LENGTH", "the picture is a height map, and so deep from white to black"},
+      {"--drawing", "SVG", "draws the ridges over the picture, and its spectrum"},
       {"--remove", "", "removes the tag"},
       {"--list", "", "prints what can be tagged, and its tags, as JSON"},
       {"--out", "FILE", "writes the tagged file there"},
@@ -84,6 +89,9 @@ static const help_command commands[] = {
      "Lengths have a unit: m, cm, mm, um or in. Only the tagged object's extras change; every other byte stays.\n"
      "External buffers are not copied: write beside them.\n"
      "JSON (--list): [{in, index, name, tag}].\n"
+     "--from-texture and --from-picture without --out and --in-place print what they find as JSON: {picture, read_as,\n"
+     "width, height (pixels), regular, confidence, ridges: [{apart (m), direction (rad), amplitude (m, or null), share,\n"
+     "evenness}], tag}. If there is no regular pattern, nothing is written and the exit code is 3.\n"
      "Presets:\n",
      materials_text},
     {"run",

@@ -197,21 +197,97 @@ static int choose_object(tag_options *options, const char *const names[3]) {
     return TOOL_OK;
 }
 
+/* The format is the contents', but `run` and others go by the name. */
+static int is_gltf_name(const char *path) {
+    const size_t length = strlen(path);
+    return strcmp(path, "-") == 0 || (length > 5 && strcmp(path + length - 5, ".gltf") == 0) ||
+           (length > 4 && strcmp(path + length - 4, ".glb") == 0);
+}
+
 static int check_task(const tag_options *options) {
-    const int changes = options->preset || options->keys;
+    const int searches = options->texture.from_texture || options->texture.from_picture;
+    const int changes = options->preset || options->keys || searches;
     if (options->list + options->remove + (changes != 0) != 1) {
         return tool_error(TOOL_USAGE, "tag: expected keys such as --ridges or a --preset, or else --remove or --list");
     }
-    if (!options->list && options->in_place + (options->out != NULL) != 1) {
+    if (options->list && (options->in_place || options->out)) {
+        return tool_error(TOOL_USAGE, "tag: --list changes nothing: expected neither --out nor --in-place with it");
+    }
+    if (options->in_place + (options->out != NULL) > 1 ||
+        (!options->list && !searches && !options->in_place && !options->out)) {
         return tool_error(TOOL_USAGE, "tag: expected --out FILE, or --in-place to replace the file itself");
     }
+    if (options->out && !is_gltf_name(options->out)) {
+        return tool_error(TOOL_USAGE, "tag: --out: expected a name that ends in .gltf or .glb, found '%s'",
+                          options->out);
+    }
     return TOOL_OK;
+}
+
+/* The options of a search for ridges in a picture, as text. */
+typedef struct search_texts {
+    const char *size, *depth;
+} search_texts;
+
+static int read_length(const char *option, const char *text, double *value, const char **end) {
+    if (!read_quantity(text, lengths, value, end) || !(*value >= 1e-6 && *value <= 1e3)) {
+        return tool_error(TOOL_USAGE,
+                          "tag: %s: expected a length with its unit, from 1um to 1000m, such as 40mm, found '%s'",
+                          option, text);
+    }
+    return TOOL_OK;
+}
+
+static int read_size(const search_texts *given, texture_options *t) {
+    const char *end = NULL;
+    if (!given->size) {
+        return tool_error(TOOL_USAGE, "tag: --from-picture: expected its width with --picture-size, such as 40mm");
+    }
+    if (read_length("--picture-size", given->size, &t->size[0], &end) ||
+        (*end == ',' && read_length("--picture-size", end + 1, &t->size[1], &end))) {
+        return TOOL_USAGE;
+    }
+    return *end ? tool_error(TOOL_USAGE,
+                             "tag: --picture-size: expected a width, or a width and a height such as "
+                             "40mm,30mm, found '%s'",
+                             given->size)
+                : TOOL_OK;
+}
+
+static int read_search(const keys *k, const search_texts *given, texture_options *t) {
+    const char *end = NULL;
+    const int searches = t->from_texture + (t->from_picture != NULL);
+    if (searches > 1) {
+        return tool_error(TOOL_USAGE, "tag: expected one of --from-texture and --from-picture");
+    }
+    if (!t->from_picture && (given->size || given->depth)) {
+        return tool_error(TOOL_USAGE, "tag: expected --picture-size and --picture-depth with --from-picture only");
+    }
+    if (!searches && t->drawing) {
+        return tool_error(TOOL_USAGE, "tag: expected --drawing with --from-texture or --from-picture only");
+    }
+    if (searches && (k->ridges || k->orientation || k->axis || k->coordinates)) {
+        return tool_error(TOOL_USAGE,
+                          "tag: %s finds the ridges and their direction on the UVs: expected no --ridges, "
+                          "--orientation, --axis or --coordinates with it",
+                          t->from_texture ? "--from-texture" : "--from-picture");
+    }
+    if (t->from_picture && read_size(given, t)) {
+        return TOOL_USAGE;
+    }
+    if (given->depth && read_length("--picture-depth", given->depth, &t->depth, &end)) {
+        return TOOL_USAGE;
+    }
+    return given->depth && *end
+               ? tool_error(TOOL_USAGE, "tag: --picture-depth: expected one length, found '%s'", given->depth)
+               : TOOL_OK;
 }
 
 int tag_read_options(int argc, char **argv, tag_options *options, const char **path) {
     static keys k;
     const char *objects[3] = {NULL, NULL, NULL};
     const char *preset = NULL;
+    search_texts search = {NULL, NULL};
     memset(options, 0, sizeof *options);
     memset(&k, 0, sizeof k);
     k.stiffness = k.friction = k.damping = NAN;
@@ -229,16 +305,23 @@ int tag_read_options(int argc, char **argv, tag_options *options, const char **p
                                  {"--coordinates", TOOL_TEXT, &k.coordinates, 0, 0, ""},
                                  {"--method", TOOL_TEXT, &k.method, 0, 0, ""},
                                  {"--smooth", TOOL_TEXT, &k.smooth, 0, 0, ""},
+                                 {"--from-texture", TOOL_FLAG, &options->texture.from_texture, 0, 0, ""},
+                                 {"--from-picture", TOOL_TEXT, &options->texture.from_picture, 0, 0, ""},
+                                 {"--picture-size", TOOL_TEXT, &search.size, 0, 0, ""},
+                                 {"--picture-depth", TOOL_TEXT, &search.depth, 0, 0, ""},
+                                 {"--drawing", TOOL_TEXT, &options->texture.drawing, 0, 0, ""},
                                  {"--remove", TOOL_FLAG, &options->remove, 0, 0, ""},
                                  {"--list", TOOL_FLAG, &options->list, 0, 0, ""},
                                  {"--out", TOOL_TEXT, &options->out, 0, 0, ""},
                                  {"--in-place", TOOL_FLAG, &options->in_place, 0, 0, ""},
                                  {"--pretty", TOOL_FLAG, &options->pretty, 0, 0, ""}};
     if (tool_parse(argc, argv, table, sizeof table / sizeof *table, path) || choose_object(options, objects) ||
-        read_keys(&k) || (preset && find_preset(preset, &options->preset))) {
+        read_keys(&k) || read_search(&k, &search, &options->texture) ||
+        (preset && find_preset(preset, &options->preset))) {
         return TOOL_USAGE;
     }
-    if (!*path || !(*path)[0]) {
+    const int needs_file = !options->texture.from_picture || options->out || options->in_place;
+    if (*path ? !(*path)[0] : needs_file) {
         return tool_error(TOOL_USAGE, "tag: expected a .gltf or .glb file, found none");
     }
     options->keys = k.length ? k.json : NULL;

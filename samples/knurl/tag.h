@@ -2,7 +2,7 @@
 #ifndef KNURL_TAG_H
 #define KNURL_TAG_H
 
-#define TAG_BYTES_MAX ((size_t)1 << 30)
+#include "texture.h"
 
 typedef struct tag_options {
     const char *array;  /* "materials", "meshes" or "nodes" */
@@ -11,6 +11,7 @@ typedef struct tag_options {
     const char *keys;   /* a tag's JSON, or null: no key is given. Static */
     const char *out;
     int in_place, remove, list, pretty;
+    texture_options texture;
 } tag_options;
 
 /* Returns TOOL_OK, or TOOL_USAGE having said why. */

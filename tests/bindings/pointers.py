@@ -19,6 +19,11 @@ VALUES = {
     "knurl_gltf_load_memory.data": "f->file",
     "knurl_gltf_list_tags.data": "f->file",
     "knurl_gltf_set_tag.data": "f->file",
+    "knurl_gltf_read_textures.data": "f->file",
+    "knurl_gltf_read_textures.size": "f->file_size",
+    "knurl_gltf_read_textures.name": '"plate"',
+    "knurl_gltf_read_textures.folder": '"."',
+    "knurl_gltf_read_textures.user": "f",
     "knurl_gltf_list_tags.size": "f->file_size",
     "knurl_gltf_set_tag.size": "f->file_size",
     "knurl_gltf_list_tags.name": '"plate"',
@@ -142,6 +147,7 @@ VALUES = {
     "array const char *": '"materials"',
     "tag const char *": '"{}"',
     "each knurl_gltf_list_callback": "ignore_tag",
+    "each knurl_gltf_texture_callback": "ignore_texture",
     "write knurl_gltf_write_callback": "ignore_file",
 }
 
@@ -155,7 +161,8 @@ MAY_BE_NULL = {
     "knurl_scene_get_tick.output", "knurl_scene_get_tick.counts", "knurl_scene_get_contacts.contacts",
     "knurl_method_add.user",
     "knurl_gltf_load_file.options", "knurl_gltf_load_file.report", "knurl_fake_lay_stroke.report", "knurl_gltf_load_memory.options", "knurl_gltf_load_memory.report", "knurl_gltf_load_memory.name",
-    "knurl_gltf_load_memory.folder", "knurl_gltf_list_tags.name", "knurl_gltf_list_tags.user", "knurl_gltf_set_tag.user", "knurl_gltf_set_tag.name", "knurl_gltf_set_tag.tag", "knurl_grating_step.position",
+    "knurl_gltf_load_memory.folder", "knurl_gltf_list_tags.name", "knurl_gltf_list_tags.user", "knurl_gltf_set_tag.user", "knurl_gltf_set_tag.name",
+    "knurl_gltf_read_textures.name", "knurl_gltf_read_textures.folder", "knurl_gltf_read_textures.user", "knurl_gltf_set_tag.tag", "knurl_grating_step.position",
     "knurl_session_start.warning", "knurl_session_explain.text", "knurl_session_fault_text.text",
 }
 

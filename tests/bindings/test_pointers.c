@@ -71,6 +71,11 @@ static double no_height(const knurl_method_input *input, double *memory, void *u
     return 0.0;
 }
 
+static void ignore_texture(void *user, const knurl_gltf_texture *texture) {
+    (void)user;
+    (void)texture;
+}
+
 static void ignore_tag(void *user, const char *array, uint32_t index, const char *object, const char *tag) {
     (void)user, (void)array, (void)index, (void)object, (void)tag;
 }

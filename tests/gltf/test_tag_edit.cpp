@@ -159,6 +159,22 @@ TEST(a_tag_of_many_keys_is_removed_in_one_pass) {
     assert_true(tagged(file, nullptr) == quad_with(R"({"a":1 , "b":2})").gltf());
 }
 
+TEST(a_tag_of_many_keys_is_listed_in_one_pass) {
+    std::string extras = R"({"a":1)";
+    for (int i = 0; i < 100000; ++i) // comparing each key with all before it takes minutes
+        extras += ",\"knurl_" + std::to_string(i) + "\":0";
+    const std::string file = quad_with(extras + "}").gltf();
+    size_t length = 0;
+    assert_int_equal(knurl_gltf_list_tags(
+                         file.data(), file.size(), "test.gltf",
+                         [](void *user, const char *, uint32_t, const char *, const char *tag) {
+                             *static_cast<size_t *>(user) += tag != nullptr ? std::strlen(tag) : 0;
+                         },
+                         &length),
+                     KNURL_OK);
+    assert_int_equal(length, std::strlen(R"({"version":1})") + 488890 + 100000 * std::strlen(R"(,"":0)"));
+}
+
 TEST(a_refused_edit_writes_nothing) {
     const std::string file = awkward_file().glb();
     const char *object = "material 'a \"{[\\' (0): ";

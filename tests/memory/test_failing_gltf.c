@@ -121,10 +121,27 @@ static knurl_result list_tags(void) {
     return knurl_gltf_list_tags(many_ways, strlen(many_ways), "memory.gltf", ignore_tag, NULL);
 }
 
+static void ignore_texture(void *user, const knurl_gltf_texture *texture) {
+    (void)user;
+    (void)texture;
+}
+
+static knurl_result read_textures(void) {
+    static const char textured[] =
+        "{\"materials\":[{\"name\":\"m\",\"normalTexture\":{\"index\":0,\"extensions\":{\"KHR_texture_transform\":"
+        "{\"scale\":[2,3]}}},\"occlusionTexture\":{\"index\":1}}],\"textures\":[{\"source\":0},{\"source\":1}],"
+        "\"images\":[{\"uri\":\"data:image/png;base64,AAAA\"},{\"bufferView\":0}],"
+        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":2}],"
+        "\"buffers\":[{\"byteLength\":3,\"uri\":\"data:;base64,AAAA\"}]}";
+    return knurl_gltf_read_textures(textured, strlen(textured), "memory.gltf", NULL, "materials", 0, ignore_texture,
+                                    NULL);
+}
+
 TEST(a_tag_is_written_whole_or_not_wherever_memory_runs_out) {
     const failing_call calls[] = {
         {"knurl_gltf_set_tag()", reset_written, set_tag, reset_written, written_state, 0, 0},
         {"knurl_gltf_list_tags()", reset_written, list_tags, reset_written, written_state, 0, 0},
+        {"knurl_gltf_read_textures()", reset_written, read_textures, reset_written, written_state, 0, 0},
     };
     failing_run(calls, COUNT_OF(calls));
 }

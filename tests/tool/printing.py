@@ -17,6 +17,7 @@ WRITERS = {
     "samples/knurl/help.c": "prints its own tables",
     "samples/knurl/cmd_tag.c": "writes a glTF file's bytes",
     "samples/knurl/sound.c": "writes samples of sound",
+    "samples/knurl/texture_draw.c": "draws numbers as SVG, no names",
 }
 # Small programs for readers: of text they print the library's messages and names, which have passed knurl_text_line().
 EXAMPLES = ("samples/hello_grating.c", "samples/feel_scene.c", "samples/slider.c", "samples/coil.c", "samples/touch_grating.c", "samples/conform/conform.c")

@@ -286,6 +286,16 @@
     FIELD(knurl_gltf_report, surfaces, "surfaces", 4, 4) \
     FIELD(knurl_gltf_report, skipped, "skipped", 8, 4) \
     FIELD(knurl_gltf_report, reserved, "reserved", 12, 4) \
+    STRUCT(knurl_gltf_texture, 88) \
+    FIELD(knurl_gltf_texture, struct_size, "struct_size", 0, 4) \
+    FIELD(knurl_gltf_texture, texcoord, "texcoord", 4, 4) \
+    FIELD(knurl_gltf_texture, use, "use", 8, 8) \
+    FIELD(knurl_gltf_texture, name, "name", 16, 8) \
+    FIELD(knurl_gltf_texture, data, "data", 24, 8) \
+    FIELD(knurl_gltf_texture, size, "size", 32, 8) \
+    FIELD(knurl_gltf_texture, problem, "problem", 40, 8) \
+    FIELD(knurl_gltf_texture, from_uv, "from_uv", 48, 32) \
+    FIELD(knurl_gltf_texture, scale, "scale", 80, 8) \
     STRUCT(knurl_clock, 24) \
     FIELD(knurl_clock, now_ns, "now_ns", 0, 8) \
     FIELD(knurl_clock, sleep_until_ns, "sleep_until_ns", 8, 8) \
@@ -325,7 +335,7 @@
     FIELD(knurl_loop_stats, absences, "absences", 104, 8) \
     FIELD(knurl_loop_stats, absent, "absent", 112, 4) \
     FIELD(knurl_loop_stats, paused, "paused", 116, 4) \
-    STRUCT(knurl_surface_info, 392) \
+    STRUCT(knurl_surface_info, 408) \
     FIELD(knurl_surface_info, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_surface_info, triangle_count, "triangle_count", 4, 4) \
     FIELD(knurl_surface_info, dropped_triangles, "dropped_triangles", 8, 4) \
@@ -360,6 +370,7 @@
     FIELD(knurl_surface_info, hard_edges, "hard_edges", 356, 4) \
     FIELD(knurl_surface_info, facet_angle, "facet_angle", 360, 16) \
     FIELD(knurl_surface_info, felt_angle, "felt_angle", 376, 16) \
+    FIELD(knurl_surface_info, uv_scale, "uv_scale", 392, 16) \
     STRUCT(knurl_surface_point, 72) \
     FIELD(knurl_surface_point, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_surface_point, hint, "hint", 4, 4) \

@@ -96,6 +96,34 @@ KNURL_API knurl_result knurl_gltf_list_tags(const void *data, uint64_t size, con
 KNURL_API knurl_result knurl_gltf_set_tag(const void *data, uint64_t size, const char *name, const char *array,
                                           uint32_t index, const char *tag, knurl_gltf_write_callback write, void *user);
 
+/** A picture that a material uses. An output, valid during the call. */
+typedef struct knurl_gltf_texture {
+    uint32_t struct_size; /**< the library's sizeof */
+    uint32_t texcoord;    /**< n of the UVs TEXCOORD_n that lay it out; surfaces' ridges use 0 */
+    const char *use;      /**< "normal", "occlusion" or "base colour"; static */
+    const char *name;     /**< for messages, UTF-8: the image's name, its file's, or "image 3" */
+    const void *data;     /**< the image file as it is (PNG and JPEG in plain glTF, or KTX2, WebP); null: see problem */
+    uint64_t size;        /**< bytes */
+    const char *problem;  /**< the reason that it cannot be read, such as a missing file; or null */
+    double from_uv[2][2]; /**< place in the picture (1 is its width, its height) = from_uv (u, v) + an offset; the unit
+                             matrix without KHR_texture_transform */
+    double scale;         /**< of a normal texture's x and y; otherwise 1 */
+} knurl_gltf_texture;
+
+/** Takes a texture. */
+typedef void (*knurl_gltf_texture_callback)(void *user, const knurl_gltf_texture *texture);
+
+/** Reads the pictures that can show an object's ridges, without decoding them: its material's normal, occlusion and
+ * base colour textures, in this order.
+ * data, size, name, array, index: as knurl_gltf_set_tag(); a mesh or a node must have one material. folder: of external
+ * images, read from it or below it only; null: they have a problem. each: called for each texture; one that cannot be
+ * read is not an error of the call. user: passed to each.
+ * Errors: KNURL_ERROR_ARGUMENT (array or index), KNURL_ERROR_FORMAT (the file's JSON, or not one material),
+ * KNURL_ERROR_FULL. [any thread but the haptic] */
+KNURL_API knurl_result knurl_gltf_read_textures(const void *data, uint64_t size, const char *name, const char *folder,
+                                                const char *array, uint32_t index, knurl_gltf_texture_callback each,
+                                                void *user);
+
 #ifdef __cplusplus
 }
 #endif

@@ -75,6 +75,8 @@ typedef struct knurl_surface_info {
     uint32_t hard_edges;       /**< of these, felt as edges: the felt surface's normal turns by over 0.25 degrees */
     double facet_angle[2];     /**< rad: angle between the triangles at an edge: mean by the edges' lengths, largest */
     double felt_angle[2];      /**< rad: the same of the surface as it is felt; 0 if it is smooth */
+    double uv_scale[2];        /**< m of the surface for each unit of u and of v: means by area, which make uvs the
+                                    surface's coordinates; 0 if `coordinates` are not "uvs" */
 } knurl_surface_info;
 
 /** Zeroes it and sets struct_size; `size` is the caller's sizeof. [any thread] */

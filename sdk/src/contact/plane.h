@@ -25,6 +25,7 @@ typedef struct knurl_plane {
     double half_extents[2]; /* of the bounding rectangle, centred on the origin; m */
     double x[2];            /* the grating's x direction, unit, in the plane's axes, seen from the front */
     double map[2][3];       /* surface coordinates from the front: c_i = map[i][0] px + map[i][1] py + map[i][2], m */
+    double uv_scale[2];     /* m for each unit of u and v, if the map comes from uvs; otherwise 0 */
     double stretch[2][3];   /* min, mean, max of d(surface coordinate)/d(metre along x), and along y */
     double flatness;  /* m: largest distance of the vertices from the plane, or of those left out from the outline */
     double seam;      /* m: beyond its edges that a cast still hits */

@@ -59,6 +59,7 @@ static void plane_facts(const void *geometry, knurl_shape_facts *facts) {
                                     .seam = plane->seam,
                                     .error = plane->flatness};
     *facts = made;
+    memcpy(facts->uv_scale, plane->uv_scale, sizeof facts->uv_scale);
     memcpy(facts->stretch, plane->stretch, sizeof facts->stretch);
 }
 
@@ -120,6 +121,9 @@ static void mesh_facts(const void *geometry, knurl_shape_facts *facts) {
                               .uneven = mesh->uneven,
                               .projection_seams = mesh->projection_seams,
                               .error = 0.0}; /* meshes are stored as given, in floats */
+    for (int i = 0; i < 2 && mesh->uvs && !mesh->has_axis; i++) {
+        made.uv_scale[i] = mesh->uv_scale[i];
+    }
     memcpy(made.stretch, mesh->stretch, sizeof made.stretch);
     *facts = made;
 }

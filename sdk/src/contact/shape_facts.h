@@ -23,6 +23,7 @@ typedef struct knurl_shape_facts {
     uint32_t projection_seams; /* edges between triangles whose coordinates are projected differently */
     double uneven;             /* share of the area in which ridges are more than an octave off, or without uvs */
     double error;              /* m: largest distance of the model from its description */
+    double uv_scale[2];        /* m for each unit of u and v, if they are the coordinates; otherwise 0 */
     double stretch[2][3];      /* min, mean, max of d(surface coordinate)/d(metre along x), and along y */
 } knurl_shape_facts;
 

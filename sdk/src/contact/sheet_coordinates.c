@@ -186,6 +186,8 @@ static void map_by_uvs(knurl_sheet *sheet, knurl_plane *plane, const char **why)
         *why = "mesh: its uvs are not affine";
         return;
     }
+    plane->uv_scale[0] = scale[0];
+    plane->uv_scale[1] = fabs(scale[1]);
     plane->has_coordinates = 1; /* metres in both directions: no stretch */
 }
 

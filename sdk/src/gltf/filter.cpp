@@ -198,6 +198,8 @@ class Filter {
     std::map<PrimitiveKey, size_t> same_primitives_;
 };
 
+} // namespace
+
 Bytes read_buffer(int number, const BufferSource &source, const Resources &resources, Sources &sources) {
     const std::string where = "buffer " + std::to_string(number);
     if (source.uri != nullptr)
@@ -210,8 +212,6 @@ Bytes read_buffer(int number, const BufferSource &source, const Resources &resou
                           std::to_string(source.byte_length));
     return {bin->data, source.byte_length};
 }
-
-} // namespace
 
 Model filter(const Fields &root, const Outline &outline) {
     return Filter(root).run(outline);

@@ -33,6 +33,9 @@ struct Model {
 /** root: must outlive the result. Throws Failure. */
 Model filter(const Fields &root, const Outline &outline);
 
+/** The bytes of one buffer. Throws Failure. */
+Bytes read_buffer(int number, const BufferSource &source, const Resources &resources, Sources &sources);
+
 /** Reads the model's buffers. Throws Failure. */
 void load_buffers(Model &model, const Resources &resources);
 

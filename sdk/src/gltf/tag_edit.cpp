@@ -118,29 +118,47 @@ void append_part(std::string &text, size_t open, const std::string &member) {
 }
 
 /// A tag's keys without prefix, and their values as text, in the file's order.
-using TagText = std::vector<std::pair<std::string, std::string>>;
+class TagText {
+  public:
+    TagText() {
+        set("version", "1");
+    }
 
-TagText new_tag() {
-    return {{"version", "1"}};
-}
-
-void set_key(TagText &tag, const std::string &key, std::string_view value) {
-    for (auto entry = tag.begin(); entry != tag.end(); ++entry)
-        if (entry->first == key) {
-            if (value == "null")
-                tag.erase(entry);
-            else
-                entry->second = value;
+    /// "null" removes the key.
+    void set(const std::string &key, std::string_view value) {
+        const auto known = places_.find(key);
+        if (value == "null") {
+            if (known == places_.end())
+                return;
+            parts_[known->second].clear();
+            places_.erase(known);
             return;
         }
-    if (value != "null")
-        tag.emplace_back(key, value);
-}
+        const size_t place = known != places_.end() ? known->second : parts_.size();
+        if (known == places_.end()) {
+            places_.emplace(key, place);
+            parts_.emplace_back();
+        }
+        parts_[place] = nlohmann::json(key).dump() + ":" + std::string(value);
+    }
 
-void set_keys(TagText &tag, std::string_view text, size_t open) {
-    for (const Part &part : parts_of(text, open))
-        set_key(tag, part.key, text.substr(part.value, part.end - part.value));
-}
+    void set_all(std::string_view text, size_t open) {
+        for (const Part &part : parts_of(text, open))
+            set(part.key, text.substr(part.value, part.end - part.value));
+    }
+
+    std::string nested() const {
+        std::string text;
+        for (const std::string &part : parts_)
+            if (!part.empty())
+                text += (text.empty() ? "{" : ",") + part;
+        return text.empty() ? "{}" : text + "}";
+    }
+
+  private:
+    std::vector<std::string> parts_;       ///< "key":value; empty: removed
+    std::map<std::string, size_t> places_; ///< a tree, not a hash table, which a hostile file could make slow
+};
 
 /// The tag in the extras that open at an offset; empty if there is none, as for extras that are not an object.
 std::optional<TagText> read_tag_text(std::string_view text, size_t extras) {
@@ -148,20 +166,14 @@ std::optional<TagText> read_tag_text(std::string_view text, size_t extras) {
     for (const Part &part : text[extras] == '{' ? parts_of(text, extras) : std::vector<Part>()) {
         if (!is_of_tag(part.key))
             continue;
-        tag = tag ? tag : new_tag();
+        if (!tag)
+            tag.emplace();
         if (is_flat(part.key))
-            set_key(*tag, part.key.substr(flat_prefix.size()), text.substr(part.value, part.end - part.value));
+            tag->set(part.key.substr(flat_prefix.size()), text.substr(part.value, part.end - part.value));
         else if (text[part.value] == '{')
-            set_keys(*tag, text, part.value);
+            tag->set_all(text, part.value);
     }
     return tag;
-}
-
-std::string nested(const TagText &tag) {
-    std::string text;
-    for (const auto &[key, value] : tag)
-        text += (text.empty() ? "{" : ",") + nlohmann::json(key).dump() + ":" + value;
-    return text.empty() ? "{}" : text + "}";
 }
 
 /// patch: null removes the tag. owner: the object in messages.
@@ -173,9 +185,9 @@ void edit_object(std::string &text, size_t object, const char *patch, const Fiel
     if (extras)
         erase_parts(text, extras->value, is_of_tag);
     if (patch != nullptr) {
-        TagText tag = old.value_or(new_tag());
-        set_keys(tag, patch, skip_blank(patch, 0));
-        const std::string member = "\"knurl\":" + nested(tag);
+        TagText tag = old.value_or(TagText());
+        tag.set_all(patch, skip_blank(patch, 0));
+        const std::string member = "\"knurl\":" + tag.nested();
         if (extras)
             append_part(text, extras->value, member);
         else
@@ -229,7 +241,7 @@ void list_file(Bytes file, knurl_gltf_list_callback each, void *user) {
             const std::string name(root.item(kind.array, kind.name, i).name());
             const std::optional<Part> extras = find_part(text, objects[i].value, "extras");
             const std::optional<TagText> tag = extras ? read_tag_text(text, extras->value) : std::nullopt;
-            each(user, kind.array, i, name.c_str(), tag ? nested(*tag).c_str() : nullptr);
+            each(user, kind.array, i, name.c_str(), tag ? tag->nested().c_str() : nullptr);
         }
     }
 }

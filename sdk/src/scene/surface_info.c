@@ -74,6 +74,7 @@ static void describe_model(const knurl_surface_data *surface, knurl_surface_info
         const knurl_mesh *mesh = surface->shape.geometry;
         describe_facets(&mesh->facets, info);
     }
+    memcpy(info->uv_scale, facts.uv_scale, sizeof info->uv_scale);
     info->double_sided = (uint32_t)surface->double_sided;
     info->bytes = knurl_heap_size(surface) + knurl_heap_size(surface->record) + knurl_heap_size(surface->name) +
                   facts.bytes / knurl_shape_users(&surface->shape);

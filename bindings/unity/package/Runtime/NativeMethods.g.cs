@@ -425,6 +425,20 @@ namespace Knurl
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_gltf_texture
+    {
+        public uint struct_size;
+        public uint texcoord;
+        public byte* use;
+        public byte* name;
+        public IntPtr data;
+        public ulong size;
+        public byte* problem;
+        public fixed double from_uv[4];
+        public double scale;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct knurl_clock
     {
         public IntPtr now_ns;
@@ -516,6 +530,7 @@ namespace Knurl
         public uint hard_edges;
         public fixed double facet_angle[2];
         public fixed double felt_angle[2];
+        public fixed double uv_scale[2];
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -675,6 +690,9 @@ namespace Knurl
     internal unsafe delegate void knurl_gltf_write_callback(IntPtr user, IntPtr data, ulong size);
 
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    internal unsafe delegate void knurl_gltf_texture_callback(IntPtr user, knurl_gltf_texture* texture);
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     internal unsafe delegate void knurl_force_callback(ulong tick, knurl_device_sample* sample, double* force,
         IntPtr user);
 
@@ -733,6 +751,7 @@ namespace Knurl
                 case "knurl_fake_truth": return sizeof(knurl_fake_truth);
                 case "knurl_gltf_options": return sizeof(knurl_gltf_options);
                 case "knurl_gltf_report": return sizeof(knurl_gltf_report);
+                case "knurl_gltf_texture": return sizeof(knurl_gltf_texture);
                 case "knurl_clock": return sizeof(knurl_clock);
                 case "knurl_loop_desc": return sizeof(knurl_loop_desc);
                 case "knurl_percentiles": return sizeof(knurl_percentiles);
@@ -1181,6 +1200,10 @@ namespace Knurl
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int knurl_gltf_set_tag(IntPtr data, ulong size, byte* name, byte* array, uint index,
             byte* tag, IntPtr write, IntPtr user);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_gltf_read_textures(IntPtr data, ulong size, byte* name, byte* folder,
+            byte* array, uint index, IntPtr each, IntPtr user);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void knurl_loop_desc_init(knurl_loop_desc* desc, uint size);

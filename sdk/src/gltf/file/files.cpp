@@ -87,18 +87,23 @@ const std::vector<unsigned char> &Sources::find(const std::string &uri, uint64_t
     return known->second;
 }
 
-Bytes Sources::read(const std::string &uri, uint64_t size, const Resources &resources, const std::string &where) {
+Bytes Sources::read_all(const std::string &uri, uint64_t size, const Resources &resources, const std::string &where) {
     try {
         const std::vector<unsigned char> &bytes = find(uri, size, resources, where);
-        if (bytes.size() < size) // longer is allowed: padding is common
-            throw Failure(KNURL_ERROR_FORMAT, "expected " + std::to_string(size) + " bytes (byteLength), found " +
-                                                  std::to_string(bytes.size()));
-        return {bytes.data(), static_cast<size_t>(size)};
+        return {bytes.data(), bytes.size()};
     } catch (const Failure &failure) {
         if (failure.code() == KNURL_ERROR_FULL || failure.code() == KNURL_ERROR_CANCELLED)
             throw; // concerns the whole load; its message is complete
         refuse(where + ": uri " + in_quotes(uri), failure.what(), failure.code());
     }
+}
+
+Bytes Sources::read(const std::string &uri, uint64_t size, const Resources &resources, const std::string &where) {
+    const Bytes bytes = read_all(uri, size, resources, where);
+    if (bytes.size < size) // longer is allowed: padding is common
+        refuse(where + ": uri " + in_quotes(uri),
+               "expected " + std::to_string(size) + " bytes (byteLength), found " + std::to_string(bytes.size));
+    return {bytes.data, static_cast<size_t>(size)};
 }
 
 } // namespace knurl::gltf

@@ -20,7 +20,7 @@ struct Bytes {
 /** Reads a whole regular file; follows links to it. */
 std::vector<unsigned char> read_file(const std::filesystem::path &path, Budget &budget);
 
-/** Sources that a glTF file's buffers may use. */
+/** Sources that a glTF file's buffers and images may use. */
 struct Resources {
     std::optional<Bytes> bin;                    ///< a .glb's BIN chunk
     std::optional<std::filesystem::path> folder; ///< external files must be in it or below; empty: refused
@@ -32,6 +32,8 @@ class Sources {
   public:
     /** The first `size` bytes of a buffer's URI: data: or a file below the folder. `where` starts error messages. */
     Bytes read(const std::string &uri, uint64_t size, const Resources &resources, const std::string &where);
+    /** All bytes of a URI. size: the number expected of a data: URI, for the budget. */
+    Bytes read_all(const std::string &uri, uint64_t size, const Resources &resources, const std::string &where);
 
   private:
     const std::vector<unsigned char> &find(const std::string &uri, uint64_t size, const Resources &resources,
