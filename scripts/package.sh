@@ -159,7 +159,7 @@ release_archive() {
     shift 3
     CFLAGS="-ffile-prefix-map=$PWD=." CXXFLAGS="-ffile-prefix-map=$PWD=." \
         cmake -G Ninja -S . -B "$folder" -DCMAKE_BUILD_TYPE=Release -DCMAKE_C_FLAGS_RELEASE='-O3 -g1' \
-        -DCMAKE_CXX_FLAGS_RELEASE='-O2 -g1' -DBUILD_SHARED_LIBS=ON -DBUILD_TESTING=OFF -DKNURL_VIEW=OFF \
+        -DCMAKE_CXX_FLAGS_RELEASE='-O2 -g1' -DBUILD_SHARED_LIBS=ON -DBUILD_TESTING=OFF -DKNURL_VIEW=OFF -DKNURL_PICTURES=OFF \
         -DCMAKE_INSTALL_LIBDIR=lib -DCMAKE_BUILD_RPATH_USE_ORIGIN=ON "$@" >"$log" 2>&1 &&
         with_progress "building $name" "$log" cmake --build "$folder" &&
         packages/linux.sh "$out" "$name" "$folder" build/release/knurl build/docs/html >>"$log" 2>&1 ||
