@@ -40,7 +40,7 @@ check_sources() {
     build/lint-venv/bin/clang-format --dry-run --Werror "$@"
     # Not part of this build: fuzz targets, the selector of mutants, code for browsers, code that is built with an
     # installed Knurl, other compilers or by a script, and the stand-in for libwebsockets.
-    local elsewhere='^tests/(fuzz|mutants|package/(consumer|host|versions))/|^bindings/python/native/|^tests/abi/deprecated\.c$|^samples/bench/closest_peers\.c$|^samples/(web|languages)/|^tests/fidelity/hashes\.c$|/view_none\.c$'
+    local elsewhere='^tests/(fuzz|mutants|package/(consumer|host|versions))/|^bindings/python/native/|^tests/abi/deprecated\.c$|^samples/bench/closest_peers\.c$|^samples/(web|languages)/|^tests/fidelity/hashes\.c$|/(view|from_texture)_none\.c$'
     units=$(printf '%s\n' "$@" | grep -E '\.(c|cpp)$' | grep -vE "$windows|$elsewhere" || true)
     [ -z "$units" ] || tidy release <<<"$units"
     units=$(printf '%s\n' "$@" | grep -E '\.(c|cpp)$' | grep -E "$windows" || true)

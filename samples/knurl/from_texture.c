@@ -199,7 +199,7 @@ static void print_result(const texture_result *r, int pretty) {
     json_flag(&json, "regular", r->is_regular);
     json_number(&json, "confidence", r->found.confidence);
     json_open(&json, "ridges", '[');
-    for (int i = 0; i < r->found.count && r->is_regular; i++) {
+    for (int i = 0; i < RIDGES_AXES && i < r->found.count && r->is_regular; i++) {
         json_open(&json, NULL, '{');
         json_number(&json, "apart", r->apart[i]);
         json_number(&json, "direction", r->direction[i]);

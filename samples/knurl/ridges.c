@@ -215,20 +215,20 @@ static double evenness_of(const lattice *l, const double fundamental[2]) {
     return most;
 }
 
-static void take_axis(lattice *l, const spectrum *s, int vector, ridges *found) {
-    double *f = found->frequency[found->count];
+static void take_axis(const lattice *l, const spectrum *s, int vector, int axis, ridges *found) {
+    double *f = found->frequency[axis];
     memcpy(f, l->vectors[vector], sizeof found->frequency[0]);
     refine(l, f);
-    if (found->count > 0) {
+    if (axis > 0) {
         straighten(found->frequency[0], f);
     }
     if (f[0] < 0.0 || (f[0] == 0.0 && f[1] < 0.0)) {
         f[0] = -f[0];
         f[1] = -f[1];
     }
-    found->share[found->count] = find_share(s, f);
-    found->evenness[found->count] = evenness_of(l, f);
-    found->count++;
+    found->share[axis] = find_share(s, f);
+    found->evenness[axis] = evenness_of(l, f);
+    found->count = axis + 1;
 }
 
 int ridges_find(const field *from, ridges *found) {
@@ -248,10 +248,10 @@ int ridges_find(const field *from, ridges *found) {
     }
     const int first = find_first(&l);
     if (first >= 0) {
-        take_axis(&l, &whole, first, found);
+        take_axis(&l, &whole, first, 0, found);
         const int second = find_second(&l, found->frequency[0]);
         if (second >= 0) {
-            take_axis(&l, &whole, second, found);
+            take_axis(&l, &whole, second, 1, found);
         }
         found->confidence = fmax(0.0, fmin(1.0, (found->evenness[0] - EVEN_NONE) / (EVEN_ALL - EVEN_NONE))) *
                             found->share[0] / (found->share[0] + SHARE_HALF);

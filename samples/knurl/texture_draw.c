@@ -84,7 +84,8 @@ static void put_ridges(FILE *to, const texture_result *r, const field *f, int ax
         high = fmax(high, ends[i]);
     }
     (void)fprintf(to, "<g clip-path=\"url(#half)\" stroke=\"%s\" stroke-width=\"1.5\">\n", colours[axis]);
-    for (double n = ceil(begin + low - p.crest); n + p.crest <= begin + high; n += 1.0) {
+    const int last = (int)floor(begin + high - p.crest);
+    for (int n = (int)ceil(begin + low - p.crest); n <= last; n++) {
         const double off = (n + p.crest - begin) / length; /* samples along the frequency from the square's corner */
         const double x = off * k[0] / length * scale, y = off * k[1] / length * scale;
         const double along[2] = {-k[1] / length * 2.0 * SIDE, k[0] / length * 2.0 * SIDE};

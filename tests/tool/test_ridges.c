@@ -218,8 +218,10 @@ TEST(slopes_integrate_to_the_amplitude) {
 static void print_row(const char *name, const drawing *like) {
     double worst[2] = {0.0, 0.0}, sum = 0.0;
     int found = 0, all = 0;
-    for (double apart = 2.3; apart < 100.0; apart *= 1.17) {
-        for (double degrees = 1.0; degrees < 180.0; degrees += 19.0) {
+    for (int step = 0; step < 24; step++) {
+        const double apart = 2.3 * pow(1.17, step); /* to 85 */
+        for (int way = 0; way < 9; way++) {
+            const double degrees = 1.0 + 19.0 * way;
             drawing d = *like;
             double error[2];
             d.axes[0].apart = apart;
@@ -247,7 +249,8 @@ static void print_row(const char *name, const drawing *like) {
 }
 
 static double smallest_contrast(double noise) {
-    for (double contrast = 1.0; contrast > 1e-3; contrast /= 1.12) {
+    for (int step = 0; step < 60; step++) {
+        const double contrast = pow(1.12, -step);
         for (uint64_t seed = 1; seed <= 8; seed++) {
             const drawing d = {400, 400, {{11.3, 28.0, DRAWN_SINE}, NONE}, contrast, noise, 0, 0};
             const ridges r = find(&d, seed);
@@ -277,7 +280,8 @@ TEST(the_table_of_the_whole_range) {
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         print_row(rows[i].name, &rows[i].like);
     }
-    for (double noise = 0.02; noise < 0.5; noise *= 2.0) {
+    for (int i = 0; i < 5; i++) {
+        const double noise = 0.02 * (1 << i);
         print_message("white noise of %.2f: smallest amplitude found %.4f\n", noise, 0.5 * smallest_contrast(noise));
     }
 }
