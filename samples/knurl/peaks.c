@@ -1,8 +1,6 @@
 /* Peaks of a picture's spectrum that stand out everywhere in the picture. SPDX-License-Identifier: MIT */
 #include "peaks.h"
 
-#include "ridges.h"
-
 #include <math.h>
 #include <stdlib.h>
 
@@ -36,8 +34,8 @@ static int ring_of(double radius) {
 
 static int is_in_range(const spectrum *s, int x, int y) {
     const double fx = (double)x / s->width, fy = (double)y / s->height;
-    return radius_of(s, x, y) >= RIDGES_PERIODS_MIN - 0.5 &&
-           fx * fx + fy * fy <= 1.0 / (RIDGES_SHORTEST * RIDGES_SHORTEST);
+    return radius_of(s, x, y) >= PEAKS_PERIODS_MIN - 0.5 &&
+           fx * fx + fy * fy <= 1.0 / (PEAKS_SHORTEST * PEAKS_SHORTEST);
 }
 
 static int compare(const void *a, const void *b) {

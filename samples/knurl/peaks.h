@@ -6,7 +6,9 @@
 
 #include <stddef.h>
 
-#define PEAKS_MAX 16
+#define PEAKS_MAX         16
+#define PEAKS_PERIODS_MIN 4    /* across the picture: fewer are no pattern */
+#define PEAKS_SHORTEST    2.25 /* samples from ridge to ridge */
 
 typedef struct peak {
     double frequency[2]; /* cycles per sample */

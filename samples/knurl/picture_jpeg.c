@@ -1,5 +1,5 @@
 /* JPEG by libjpeg-turbo: grey and colour. Files that libjpeg would repair are refused. SPDX-License-Identifier: MIT */
-#include "picture.h"
+#include "picture_jpeg.h"
 
 #include <setjmp.h>
 #include <stdio.h> /* jpeglib.h expects it */

@@ -1,5 +1,5 @@
 /* PNG by libpng: any depth, palettes, interlaced; checksums are checked. SPDX-License-Identifier: MIT */
-#include "picture.h"
+#include "picture_png.h"
 
 #include <png.h>
 

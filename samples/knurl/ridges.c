@@ -89,7 +89,7 @@ static void collect_vectors(lattice *l) {
             double *v = l->vectors[l->vector_count];
             v[0] = f[0] - g[0];
             v[1] = f[1] - g[1];
-            l->vector_count += hypot(v[0] / l->bin[0], v[1] / l->bin[1]) >= RIDGES_PERIODS_MIN - 0.5;
+            l->vector_count += hypot(v[0] / l->bin[0], v[1] / l->bin[1]) >= PEAKS_PERIODS_MIN - 0.5;
         }
     }
 }

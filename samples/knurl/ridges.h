@@ -4,11 +4,9 @@
 
 #include "spectrum.h"
 
-#define RIDGES_AXES        2
-#define RIDGES_PERIODS_MIN 4    /* across the picture: fewer are no pattern */
-#define RIDGES_CONFIDENT   0.5  /* below: no regular pattern */
-#define RIDGES_SIZE_MIN    64   /* samples */
-#define RIDGES_SHORTEST    2.25 /* samples from ridge to ridge */
+#define RIDGES_AXES      2
+#define RIDGES_CONFIDENT 0.5 /* below: no regular pattern */
+#define RIDGES_SIZE_MIN  64  /* samples */
 
 typedef struct ridges {
     int count;                        /* of axes: 0 to 2, the stronger one first */

@@ -5,6 +5,7 @@
 #include "tool.h"
 
 #include "picture.h"
+#include "picture_png.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -710,7 +710,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>The result of knurl_unity_interface() of the library that this file was generated for.</summary>
-        internal const string Interface = "c8fdd2c05133ae86";
+        internal const string Interface = "a886c9aa67f162a9";
 
         internal const string Version = "0.3.0";
 
