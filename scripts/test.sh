@@ -204,7 +204,7 @@ soak() {
     export KNURL_STRESS_SECONDS=60 KNURL_DEVICE_SECONDS=60 KNURL_LONG=10 KNURL_FUZZ=10 KNURL_FUZZ_FRAMES=20000000
     local name failed=()
     for name in stress stress_loops device_load falcon_fuzz rawhid_fuzz contact_closest contact_walks \
-        stability_protection_grids weigh rooms failing_scene failing_gltf failing_device failing_session conform \
+        stability_protection_grids weigh rooms smooth_rooms failing_scene failing_gltf failing_device failing_session conform \
         conform_drivers; do
         echo "run: soak: $name"
         if ! with_progress "running $name" "build/soak-$name.log" "build/release/tests/test_$name"; then

@@ -1,6 +1,6 @@
 /* The stability laboratory: a simulated device in a simulated hand against a wall or a grating, tick by tick, and a
  * verdict from the signals. "Height" below is the true position's distance from the surface along the wall's normal: m,
- * negative inside.
+ * negative inside; of a wavy wall, from the waves themselves.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_STUDY_LAB_H
 #define KNURL_STUDY_LAB_H
@@ -23,6 +23,9 @@ extern const lab_grip lab_grips[];
 /** Null: unknown name. */
 const lab_grip *lab_grip_named(const char *name);
 
+/** Walls (lab_wall.h). */
+enum { LAB_PLANE = 0, LAB_FACETS = 1, LAB_SMOOTH = 2 };
+
 /** A case to run. lab_case_init() fills in the defaults. */
 typedef struct lab_case {
     const char *device;   /**< the keys after "fake:?"; default "preset=touch". Unless given, the tremor is off and the
@@ -43,6 +46,7 @@ typedef struct lab_case {
     uint32_t without; /**< KNURL_PROTECT_; default all: raw */
     int32_t bilateral; /**< 1: the lab's own law F = -K x - B (x - x one tick ago)/T instead of a scene's wall */
     int32_t effect;    /**< KNURL_EFFECT_ at height 0 with K, B and the period as spacing, instead of a wall; 0: none */
+    int32_t wall;      /**< LAB_PLANE (default), LAB_FACETS, LAB_SMOOTH */
 } lab_case;
 
 /** Recorded signals, one value per tick. Zero it first; the arrays are reused from run to run; lab_signals_free(). */

@@ -1,6 +1,8 @@
 /* The laboratory's runs. SPDX-License-Identifier: MIT */
 #include "lab.h"
 
+#include "lab_wall.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -95,8 +97,8 @@ static double way_down(double depth, double speed) {
     return depth / ((1.0 - low) * (1.0 - low) * (1.0 + 2.0 * low));
 }
 
-/* The wall is at y = 0, its normal up. A stroke starts HOVER above its centre and ends its depth below it, so a centre
- * above the wall makes the descent longer and faster. */
+/* The wall is at y = 0 on average, its normal up. A stroke starts HOVER above its centre and ends its depth below it,
+ * so a centre above the wall makes the descent longer and faster. */
 static knurl_stroke_desc stroke_of(const lab_case *c) {
     const lab_grip *grip = c->grip;
     const double depth = grip->stiffness > 0.0 ? c->press / grip->stiffness : 0.0;
@@ -128,17 +130,10 @@ static knurl_result open_device(const lab_case *c, double rate, const char *more
 }
 
 static knurl_result add_wall(const lab_case *c, knurl_scene *scene) {
-    static const double up[4] = {-0.70710678118654752, 0.0, 0.0,
-                                 0.70710678118654752}; /* the plane's z is the wall's y */
     knurl_surface_desc surface;
     knurl_material_desc material;
-    knurl_plane_desc plane;
     knurl_surface_desc_init(&surface, sizeof surface);
     knurl_material_desc_init(&material, sizeof material);
-    knurl_plane_desc_init(&plane, sizeof plane);
-    plane.half_extents[0] = 2.0;
-    plane.half_extents[1] = 2.0;
-    memcpy(surface.rotation, up, sizeof up);
     material.stiffness = c->stiffness;
     material.damping = c->damping;
     material.amplitude = c->amplitude;
@@ -146,9 +141,8 @@ static knurl_result add_wall(const lab_case *c, knurl_scene *scene) {
     material.spatial_frequency[0] = c->amplitude > 0.0 ? 1.0 / c->period : 0.0;
     material.spatial_frequency[1] = 0.0;
     material.method = c->amplitude > 0.0 ? c->method : KNURL_METHOD_DEFAULT;
-    surface.plane = &plane;
     surface.material = &material;
-    return knurl_scene_add_surface(scene, &surface, NULL);
+    return lab_wall_add(scene, c->wall, &surface);
 }
 
 static knurl_result add_effect(const lab_case *c, const knurl_device_info *info, knurl_scene *scene) {
@@ -239,6 +233,10 @@ static double stretch(const lab_case *c, double height) {
     return c->effect == KNURL_EFFECT_DETENT ? sin(turn * height) / turn : height;
 }
 
+static double dot(const double a[3], const double b[3]) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
 /* Advances the reference over one tick, with the tick's H. It extrapolates by half a step, to compensate for holding
  * its force over the step. */
 static void follow(bench *b, double texture, lab_signals *s, size_t i) {
@@ -249,32 +247,39 @@ static void follow(bench *b, double texture, lab_signals *s, size_t i) {
     for (int step = 0; step < b->steps; step++) {
         (void)knurl_device_read(b->reference, &sample);
         (void)knurl_fake_get_truth(b->reference, &truth);
+        double normal[3], force[3];
+        const double height = lab_wall_distance(c->wall, truth.position, normal);
+        const double outwards = dot(truth.velocity, normal);
         if (step == 0) {
-            s->reference[i] = truth.position[1];
-            s->reference_force[i] = truth.motor[1];
+            s->reference[i] = height;
+            s->reference_force[i] = dot(truth.motor, normal);
         }
-        const double ahead = truth.position[1] + 0.5 * dt * truth.velocity[1];
-        double force[3] = {0.0, c->stiffness * (texture - stretch(c, ahead)) - c->damping * truth.velocity[1], 0.0};
-        if (!c->bilateral && !c->effect && (ahead > texture || force[1] < 0.0)) {
-            force[1] = 0.0;
+        const double ahead = height + 0.5 * dt * outwards;
+        double size = c->stiffness * (texture - stretch(c, ahead)) - c->damping * outwards;
+        if (!c->bilateral && !c->effect && (ahead > texture || size < 0.0)) {
+            size = 0.0;
+        }
+        for (int axis = 0; axis < 3; axis++) {
+            force[axis] = size * normal[axis];
         }
         (void)knurl_device_write(b->reference, force);
     }
 }
 
 static void perform(bench *b, lab_signals *s) {
+    const lab_case *c = b->c;
     for (size_t i = 0; i < s->count; i++) {
         knurl_device_sample sample;
         knurl_fake_truth truth;
-        double force[3];
+        double force[3], normal[3];
         (void)knurl_device_read(b->device, &sample);
         (void)knurl_fake_get_truth(b->device, &truth);
-        s->height[i] = truth.position[1];
-        s->measured[i] = sample.position[1];
-        s->motor[i] = truth.motor[1];
+        s->measured[i] = lab_wall_distance(c->wall, sample.position, normal);
+        s->height[i] = lab_wall_distance(c->wall, truth.position, normal);
+        s->motor[i] = dot(truth.motor, normal);
         b->last = i > 0 ? b->last : sample.position[1];
         render(b, &sample, s, i, force);
-        s->written[i] = force[1];
+        s->written[i] = dot(force, normal);
         (void)knurl_device_write(b->device, force);
         follow(b, s->texture[i], s, i);
     }

@@ -81,6 +81,7 @@ typedef struct stability_map {
     int32_t method; /**< of stability_methods */
     uint32_t without;
     int32_t effect; /**< KNURL_EFFECT_ in place of a wall; 0: none */
+    int32_t wall;   /**< LAB_PLANE, ... */
 } stability_map;
 
 typedef struct stability_cell {

@@ -91,6 +91,25 @@ static int32_t available(size_t index) {
     return -1;
 }
 
+/* Flat against curved walls, where most runaways are: the firm grip has none. */
+static int walls_at(size_t index, stability_map *map) {
+    static const int32_t methods[] = {0, 2, 3}; /* flat, S2, bandlimited */
+    const size_t walls = 3, grips_here = 2;
+    const size_t rows = COUNT(devices) * grips_here * COUNT(guards) * walls;
+    if (index >= rows * COUNT(methods)) {
+        return 0;
+    }
+    map->figure = "stability_walls";
+    map->name = "speed";
+    map->wall = (int32_t)(index % walls);
+    map->without = guards[index / walls % COUNT(guards)];
+    map->grip = grips[index / (walls * COUNT(guards)) % grips_here];
+    map->device = devices[index / (walls * COUNT(guards) * grips_here) % COUNT(devices)][0];
+    map->label = devices[index / (walls * COUNT(guards) * grips_here) % COUNT(devices)][1];
+    map->method = methods[index / rows];
+    return 1;
+}
+
 int stability_map_at(const char *figure, size_t index, stability_map *map) {
     const int amplitudes = strcmp(figure, "stability_amplitudes") == 0;
     memset(map, 0, sizeof *map);
@@ -99,6 +118,9 @@ int stability_map_at(const char *figure, size_t index, stability_map *map) {
     }
     if (strcmp(figure, "stability_effects") == 0) {
         return effects_at(index, map);
+    }
+    if (strcmp(figure, "stability_walls") == 0) {
+        return walls_at(index, map);
     }
     const size_t rows = COUNT(devices) * COUNT(grips) * COUNT(guards);
     const int32_t method = available(index / rows + (amplitudes ? 1 : 0)); /* a flat wall has no amplitude */
@@ -152,6 +174,7 @@ static void place(const stability_map *map, const knurl_device_info *limits, siz
         c->period = NOTCHES;
         c->press = 0.0;
     }
+    c->wall = map->wall;
     c->amplitude = method->texture ? TEXTURE_A : 0.0;
     if (strcmp(map->figure, "stability_amplitudes") == 0) {
         c->stiffness = 0.5 * limits->max_stiffness;

@@ -8,10 +8,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MAX_MAPS 64
+#define MAX_MAPS 72
 #define CELLS    (STABILITY_COLUMNS * STABILITY_ROWS)
 
-static const char *const figures[] = {"stability", "stability_methods", "stability_amplitudes", "stability_effects"};
+static const char *const figures[] = {"stability", "stability_methods", "stability_amplitudes", "stability_effects",
+                                      "stability_walls"}; /* the last as a table only */
+
+static const char *const walls[] = {"plane", "waves of facets", "smooth waves"};
 
 #define FIGURES (sizeof figures / sizeof *figures)
 
@@ -38,8 +41,8 @@ static void write_cell(FILE *csv, const stability_map *map, const stability_cell
     const double values[] = {
         cell->x, cell->y,  r->energy, r->unauthorised, r->activity_force, r->activity_motion, r->activity,
         r->felt, r->asked, r->bangs,  r->swing,        r->force_max,      r->guarded_ticks};
-    fprintf(csv, "%s,%s,%s,%s,%s,%s", map->name, map->label, map->grip, name_of(map),
-            map->without ? "raw" : "protected", lab_outcome_name(r->outcome));
+    fprintf(csv, "%s%s%s,%s,%s,%s,%s,%s", map->name, map->wall ? " on " : "", map->wall ? walls[map->wall] : "",
+            map->label, map->grip, name_of(map), map->without ? "raw" : "protected", lab_outcome_name(r->outcome));
     for (size_t i = 0; i < sizeof values / sizeof *values; i++) {
         fputs(",", csv);
         out_number(csv, values[i]);
@@ -105,8 +108,11 @@ static void print_runaways(const chart *c) {
     const int amplitudes = strcmp(c->figure, "stability_amplitudes") == 0;
     say(stdout, "\n");
     say(stdout, "%s: cells that run away or buzz within the device's own limits, of those that lie within them\n",
-        amplitudes ? "Amplitude against speed" : "Stiffness against speed");
-    printf("\n| device, grip | protections | method | runs away | buzzes | of |\n|---|---|---|---|---|---|\n");
+        amplitudes                                  ? "Amplitude against speed"
+        : strcmp(c->figure, "stability_walls") == 0 ? "Curved walls, stiffness against speed"
+                                                    : "Stiffness against speed");
+    printf(
+        "\n| device, grip | protections | method | wall | runs away | buzzes | of |\n|---|---|---|---|---|---|---|\n");
     for (size_t m = 0; m < c->maps; m++) {
         const stability_map *map = &c->map[m];
         int counts[4] = {0};
@@ -116,8 +122,9 @@ static void print_runaways(const chart *c) {
             all += within;
             counts[c->cell[m][i].result.outcome] += within;
         }
-        say(stdout, "| %s, %s | %s | %s | %d | %d | %d |\n", map->label, map->grip, map->without ? "raw" : "protected",
-            stability_methods[map->method].name, counts[LAB_UNSTABLE], counts[LAB_LIMIT_CYCLE], all);
+        say(stdout, "| %s, %s | %s | %s | %s | %d | %d | %d |\n", map->label, map->grip,
+            map->without ? "raw" : "protected", stability_methods[map->method].name, walls[map->wall],
+            counts[LAB_UNSTABLE], counts[LAB_LIMIT_CYCLE], all);
     }
 }
 

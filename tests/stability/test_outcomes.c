@@ -47,6 +47,27 @@ TEST(a_wall_below_every_bound_rests_and_gives_nothing_back) {
     }
 }
 
+/* An ideal device strokes waves: felt smooth it moves as on the closed form, on facets it is off by their depth. */
+TEST(a_smooth_wall_moves_a_device_as_its_closed_form_does) {
+    double off[3] = {0.0, 0.0, 0.0};
+    for (int wall = LAB_PLANE; wall <= LAB_SMOOTH; wall++) {
+        lab_case c;
+        lab_case_init(&c);
+        c.wall = wall;
+        c.speed = 0.1;
+        c.device = "preset=ideal&viscous=0.5";
+        const lab_result r = run(&c);
+        check_outcome(&r, LAB_REST);
+        for (size_t i = signals.judged; i < signals.count; i++) {
+            off[wall] = fmax(off[wall], fabs(signals.height[i] - signals.reference[i]));
+        }
+    }
+    printf("largest distance from the reference: plane %.3f, facets %.3f, smooth %.3f um\n", 1e6 * off[LAB_PLANE],
+           1e6 * off[LAB_FACETS], 1e6 * off[LAB_SMOOTH]);
+    assert_true(off[LAB_SMOOTH] < off[LAB_PLANE] + 2e-6);
+    assert_true(off[LAB_FACETS] > 10e-6);
+}
+
 /* The reference is a linear device on a spring: each odd harmonic of the square wave has its closed form. */
 TEST(a_textures_motion_is_the_response_of_mass_spring_and_damper) {
     static const double speeds[] = {0.1, 0.2, 0.25}; /* 50, 100, 125 Hz: whole and even ticks */
