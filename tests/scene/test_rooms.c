@@ -328,12 +328,14 @@ TEST(solids_that_touch_in_one_mesh_are_not_turned_over) {
 TEST(rooms_of_which_one_triangle_faces_the_other_way_hold) {
     tally sum;
     memset(&sum, 0, sizeof sum);
-    for (uint64_t i = 0; i < 40; i++) {
+    const uint64_t rooms = getenv("KNURL_LONG") ? 3000 : 40;
+    for (uint64_t i = 0; i < rooms; i++) {
         visit_room(1000 + 10 * i, ONE_REVERSED, NOTHING, 10, &sum);
     }
+    printf("%lu of %lu rooms with a reversed triangle are warned of\n", (unsigned long)sum.mixed, (unsigned long)rooms);
     assert_int_equal(sum.lost, 0);
     assert_int_equal(sum.inside, 0);
-    assert_in_range(sum.mixed, 0, 4);
+    assert_in_range(sum.mixed, 0, rooms / 10);
 }
 
 TEST(rooms_in_which_one_solid_moves_hold) {
