@@ -118,6 +118,7 @@ static void mesh_facts(const void *geometry, knurl_shape_facts *facts) {
                               .bad_normals = mesh->bad_normals,
                               .bulge = mesh->bulge,
                               .has_computed_normals = mesh->has_computed_normals,
+                              .collapsed = mesh->collapsed,
                               .uneven = mesh->uneven,
                               .projection_seams = mesh->projection_seams,
                               .error = 0.0}; /* meshes are stored as given, in floats */

@@ -104,7 +104,7 @@ static uint32_t count_seams(const knurl_mesh *mesh) {
 }
 
 knurl_result knurl_mesh_measure_uvs(knurl_heap *heap, knurl_mesh *mesh) {
-    double area = 0.0;
+    double area = 0.0, mapped = 0.0;
     uint32_t count = 0;
     for (int i = 0; i < 2; i++) {
         mesh->stretch[i][0] = mesh->stretch[i][1] = mesh->stretch[i][2] = 1.0;
@@ -122,6 +122,7 @@ knurl_result knurl_mesh_measure_uvs(knurl_heap *heap, knurl_mesh *mesh) {
         knurl_mesh_triangle(mesh, i, &t);
         area += t.area_twice;
         if (knurl_mesh_uv_frame(mesh, i, du, dv)) {
+            mapped += t.area_twice;
             list[count].area_twice = t.area_twice;
             list[count].lengths[0] = vec3_length(du);
             list[count++].lengths[1] = vec3_length(dv);
@@ -132,6 +133,7 @@ knurl_result knurl_mesh_measure_uvs(knurl_heap *heap, knurl_mesh *mesh) {
         find_stretch(list, count, k, mesh->uv_scale[k], mesh->stretch[k]);
     }
     mesh->projection_seams = mesh->is_projected ? count_seams(mesh) : 0;
+    mesh->collapsed = 1.0 - mapped / area;
     mesh->uneven = 1.0 - find_even(list, count, mesh->uv_scale) / area;
     knurl_heap_free(heap, list);
     return KNURL_OK;

@@ -79,6 +79,9 @@ static void check_texture(const inspection *on, double stiffness) {
     }
 }
 
+/* Share of the area without ridges, as its uvs have no area, that causes a warning: a few such triangles are common. */
+#define COLLAPSED_MAX 0.01
+
 /* Compares the ridges per metre that are felt along x or y with the material's. A surface with an axis or projected
  * coordinates is skipped: it uses no uvs, and its ridges stand as if planes cut them. */
 static void check_stretch(const inspection *on, const knurl_surface_data *surface) {
@@ -104,6 +107,10 @@ static void check_stretch(const inspection *on, const knurl_surface_data *surfac
                 "%.2g %% of its area",
                 fs, "uv"[i], stretch[0] * fs, stretch[2] * fs, 100.0 * on->facts->uneven);
         }
+    }
+    if (on->facts->collapsed > COLLAPSED_MAX && (m->spatial_frequency[0] > 0.0 || m->spatial_frequency[1] > 0.0)) {
+        say(on, KNURL_LIMIT_STRETCH, "unwrap it, give it an axis or box coordinates, or use S2",
+            "its uvs have no area on %.2g %% of its area, where no ridges are felt", 100.0 * on->facts->collapsed);
     }
 }
 
