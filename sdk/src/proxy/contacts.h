@@ -23,7 +23,7 @@ typedef struct knurl_active_contact {
     knurl_candidate *candidate;   /* state kept from tick to tick, with the contact's proxy and normal */
     const knurl_pose *pose;       /* of the shape's frame, now */
     knurl_contact contact;        /* shape's frame */
-    double share, friction_share; /* of its force across and along it; 1 if it is alone */
+    double share, friction_share; /* of its ridges and damping, and of its friction; 1 if it is alone */
     int32_t begins;               /* 1: not in contact at the last tick */
     int32_t is_unfelt;            /* 1: in contact with a smooth mesh's triangles, but not with its surface */
     const double *normal;         /* as felt, scene: the candidate's, or that of `felt` */
@@ -105,10 +105,10 @@ int knurl_contacts_add(knurl_contacts *contacts, knurl_candidate *candidate, con
                        const knurl_record *record, const knurl_pose *pose,
                        const knurl_touched *touched) KNURL_NONBLOCKING;
 
-/* Finds the share of one of several contacts. Surfaces that hold the HIP together are one wall, as one mesh is, and
- * each pushes its share along its own normal. A crest ahead of the proxy counts less, the deeper the HIP is in others:
- * it ends with 0, as the share begins. Sets the contact's normal to that of all. Returns the wall's z, m. */
-double knurl_contacts_share(const knurl_contacts *contacts, knurl_active_contact *contact) KNURL_NONBLOCKING;
+/* Finds the shares of one of several contacts, before felt.h changes it. Ridges, damping and friction of surfaces that
+ * hold the HIP together add up to those of one mesh: they count by the surface's share of the depth. A crest ahead of
+ * the proxy counts less, the deeper the HIP is in others: it ends with 0, as the share begins. */
+void knurl_contacts_share(const knurl_contacts *contacts, knurl_active_contact *contact) KNURL_NONBLOCKING;
 
 /* Lets a HIP that has not ticked for a while take over the time of a moving surface. */
 static inline void knurl_contacts_catch_up(knurl_contacts *contacts, const knurl_motion *motion) {

@@ -152,11 +152,12 @@ static void track(knurl_hip *hip, const knurl_tick_input *input) {
 /* Computes one contact's force and adds it to the sum. Returns its texture's step, N. */
 static inline double render_contact(knurl_hip *hip, const knurl_tick_input *input, knurl_active_contact *c,
                                     double sum[3], knurl_tick_output *out) {
+    if (KNURL_UNLIKELY(hip->contacts.now.count > 1)) {
+        knurl_contacts_share(&hip->contacts, c);
+    }
     if (KNURL_UNLIKELY(c->surface->shape.bulge > 0.0) && !knurl_felt_find(c)) {
         return 0.0;
     }
-    const double z =
-        KNURL_UNLIKELY(hip->contacts.now.count > 1) ? knurl_contacts_share(&hip->contacts, c) : c->contact.z;
     const int plays = c->record->has_grating || c->candidate->grating.playing; /* an event plays to its end */
     if (plays && hip->facts.resolution > 0.0 && knurl_methods[c->record->material.method].follows_position) {
         track(hip, input);
@@ -165,12 +166,12 @@ static inline double render_contact(knurl_hip *hip, const knurl_tick_input *inpu
     const int64_t events = c->candidate->grating.event_count;
     knurl_wall wall;
     knurl_contact_force share;
-    knurl_wall_init(&wall, &c->record->material, z, &c->candidate->guard);
+    knurl_wall_init(&wall, &c->record->material, c->contact.z, &c->candidate->guard);
     knurl_guard_before(&hip->guard, &wall, &out->flags);
     knurl_force_law(&motion, c, plays, &wall, &share);
     double step = 0.0;
     if (plays || wall.contact->height != 0.0) { /* else it was smooth, and still is */
-        step = c->share * knurl_guard_after(&hip->guard, &wall);
+        step = knurl_min(1.0, c->share) * knurl_guard_after(&hip->guard, &wall);
     }
     if (plays) {
         count_grating(hip, c, &share, events);

@@ -21,9 +21,10 @@ static int count_broken(void) {
     return broken;
 }
 
-/* 39933: a replaced surface was held by the contact of the old one. */
+/* 39933: a replaced surface was held by the contact of the old one. 24: ridges of a smooth mesh that another surface
+ * hardly let the HIP into were felt many times too strong. */
 TEST(seeds_that_once_broke_a_promise_keep_all) {
-    static const uint64_t seeds[] = {39933};
+    static const uint64_t seeds[] = {39933, 24};
     uint64_t ticks = 0;
     for (size_t i = 0; i < COUNT_OF(seeds); i++) {
         assert_int_equal(trial_run(&functions_subject, seeds[i], &j, &ticks), 0);
