@@ -27,25 +27,6 @@ static knurl_result hold_still(knurl_device *device, int is_fake) {
     return is_fake ? knurl_fake_set_stroke(device, &stroke) : KNURL_OK;
 }
 
-/* Number of rows, from the first one on, that stand out from the noise. */
-static uint32_t count_clear(const sweep *s) {
-    uint32_t count = 0;
-    while (count < s->row_count && s->rows[count].gain > 5.0 * s->rows[count].noise) {
-        count++;
-    }
-    return count;
-}
-
-static void write_rows(FILE *stream, const sweep *s, uint32_t count, const char *name) {
-    say(stream, "# knurl response 1\n");
-    say(stream, "# %s: m of motion along y per N, at %g N and %g Hz, in the hand that held it\n", name, s->newtons,
-        s->rate);
-    say(stream, "frequency_hz,gain\n");
-    for (uint32_t i = 0; i < count; i++) {
-        say(stream, "%.8g,%.6g\n", s->rows[i].hz, s->rows[i].gain);
-    }
-}
-
 static void print_summary(const sweep *s, uint32_t count, const char *name, int pretty) {
     json_writer json;
     json_start(&json, stdout, pretty);
@@ -62,7 +43,7 @@ static void print_summary(const sweep *s, uint32_t count, const char *name, int 
 
 static int write_out(out_file *file, knurl_device *device, const sweep *s, int pretty) {
     knurl_device_info info;
-    const uint32_t count = count_clear(s);
+    const uint32_t count = sweep_count_clear(s);
     knurl_device_info_init(&info, sizeof info);
     (void)knurl_device_get_info(device, &info);
     if (count == 0 || s->rows[count - 1].hz < LAST_HZ) {
@@ -72,7 +53,7 @@ static int write_out(out_file *file, knurl_device *device, const sweep *s, int p
             "(%.3g mm) or the hand moved too much",
             LAST_HZ, count ? s->rows[count - 1].hz : 0.0, 1e3 * info.resolution);
     }
-    write_rows(file->stream, s, count, info.name);
+    sweep_write(s, file->stream, info.name);
     if (out_keep(file)) {
         return TOOL_FAILURE;
     }

@@ -4,8 +4,8 @@
 
 #include <knurl/hip.h>
 
-/* The file, if it is no longer than the library takes: `room` bytes and one more tell so. */
-static int read_response(const char *path, knurl_gain gains[KNURL_GAINS]) {
+/* No more of the file than the library takes, and one byte that tells so. */
+int tool_read_response(const char *path, knurl_gain gains[KNURL_GAINS]) {
     static char text[65536 + 1];
     const char *why = "";
     FILE *stream = os_open_input(path, &why);
@@ -32,7 +32,7 @@ int tool_even(knurl_scene *scene, const char *path, const knurl_device *device, 
     knurl_device_info info;
     knurl_device_info_init(&info, sizeof info);
     if (path) {
-        if (read_response(path, gains) != TOOL_OK) {
+        if (tool_read_response(path, gains) != TOOL_OK) {
             return TOOL_FAILURE;
         }
     } else if (knurl_device_get_info(device, &info) || knurl_gains_from_plant(info.mass, info.viscous, rate, gains)) {

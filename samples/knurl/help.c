@@ -4,6 +4,7 @@
 #include "bench.h"
 #include "materials.h"
 #include "options.h"
+#include "verify.h"
 
 #include <knurl/knurl.h>
 
@@ -31,7 +32,8 @@ typedef struct help_command {
 #define STUDIES                                                                                                        \
     "signals, coverage, temporal, device, gratings, preferences, tradeoff, velocity, tracking, even, half_cycles,\n"   \
     "transitions, smooth, creases, failures, stability"
-#define METHODS "METHOD" /* replaced by the names of the library's table */
+#define METHODS "METHOD" /* replaced by the names of the library's table, */
+#define STEPS   "STEP"   /* and by those of verify's */
 #define BUDGET  {"--budget", "NAME=N,...", "limits of loading: surfaces, bytes, vertices, triangles, seconds"}
 #define PRETTY  {"--pretty", "", "JSON over several lines"}
 #define FULL    {"--full-model", "", "without reductions: flat meshes stay meshes, every tick tests all surfaces"}
@@ -186,27 +188,47 @@ static const help_command commands[] = {
      "Sines along y, at most 1 N, one after the other. A fault, Ctrl-C, or a grip that moves by 30 mm ends it.\n"
      "CSV out: a line '# knurl response 1', then frequency_hz,gain (m/N), as far as motions stand out from noise.\n"
      "JSON: device, rate_hz, force_n, seconds, overruns, rows, to_hz.",
+     NULL},
+    {"verify",
+     "",
+     "test a device with your help: the first hour with it",
+     {{"--device", "URI", "fake (default), or as knurl run"},
+      {"--out", "NAME", "writes NAME.html, NAME.json, and NAME.csv for --response"},
+      {"--only", STEPS, "these steps only, with commas in between"},
+      {"--skip", STEPS, "all but these"},
+      {"--mass", "KG", "that can hang from the grip, 0.01 to 0.1: its weight tells the scale of the force"},
+      {"--response", "CSV", "a response measured otherwise, as with a force sensor, in place of the sweep"},
+      {"--yes", "", "asks nothing: every step begins at once"},
+      {"--simulate", "", "a fake device in the hand of a simulated person"},
+      {"--json", "", "prints the JSON, and the findings to standard error"},
+      PRETTY},
+     "At most 1 N is sent (3 N while a mass is weighed), in pulses and ramps; Enter or Ctrl-C during a step ends all with\n"
+     "no force. Expected are the device's data as Knurl knows them, and what simulations with these data do.\n"
+     "JSON: device, uri, knurl, machine, simulated, force_max_n, mass_kg, passed, failed, not_measured, findings [{step,\n"
+     "what, unit, expected [least, most], source, measured, verdict, note}], response [[Hz, m/N]].",
      NULL}};
 
 #define COMMAND_COUNT (sizeof commands / sizeof *commands)
 
 static const char exit_codes[] =
-    "Exit codes: 0 done, 1 failed, 2 wrong usage, unknown method or unknown device, 3 inspect --check found a problem,\n"
-    "4 a simulated run that touched nothing or hardly moved (its output is still written), 128 + N ended by\n"
-    "signal N (130: Ctrl-C; nothing is written then).\n";
+    "Exit codes: 0 done, 1 failed, 2 wrong usage, unknown method or unknown device, 3 inspect --check or verify found\n"
+    "a problem, 4 a simulated run that touched nothing or hardly moved (its output is still written), 128 + N ended by\n"
+    "signal N (130: Ctrl-C; nothing is written then, except by verify).\n";
 
 /* An option's argument, or its values with bars in between. */
 static const char *argument_of(const help_option *o) {
-    static char methods[256];
-    if (strcmp(o->argument, METHODS) != 0) {
+    static char names[256];
+    const int is_method = strcmp(o->argument, METHODS) == 0;
+    if (!is_method && strcmp(o->argument, STEPS) != 0) {
         return o->argument;
     }
-    methods[0] = '\0';
-    for (int32_t i = 1; knurl_method_name(i); i++) {
-        const size_t used = strlen(methods);
-        (void)snprintf(methods + used, sizeof methods - used, "%s%s", used ? "|" : "", knurl_method_name(i));
+    names[0] = '\0';
+    for (int32_t i = 0; is_method ? knurl_method_name(i + 1) != NULL : verify_steps[i].name != NULL; i++) {
+        const size_t used = strlen(names);
+        (void)snprintf(names + used, sizeof names - used, "%s%s", used ? "|" : "",
+                       is_method ? knurl_method_name(i + 1) : verify_steps[i].name);
     }
-    return methods;
+    return names;
 }
 
 static const help_command *find(const char *name) {

@@ -40,7 +40,8 @@ static const struct {
                 {"bench", cmd_bench},
                 {"devices", cmd_devices},
                 {"calibrate", cmd_calibrate},
-                {"sweep", cmd_sweep}};
+                {"sweep", cmd_sweep},
+                {"verify", cmd_verify}};
 
 /* The command whose help is requested; "": the overview; null: no help requested. */
 static const char *help_asked(int argc, char **argv) {
@@ -59,7 +60,7 @@ static int unknown_command(const char *name) {
     const char *near = help_nearest_command(name);
     return tool_error(
         TOOL_USAGE,
-        "expected a command (inspect, tag, run, signal, metrics, scan, study, bench, devices, calibrate, sweep), found '%s'%s%s%s; "
+        "expected a command (inspect, tag, run, signal, metrics, scan, study, bench, devices, calibrate, sweep, verify), found '%s'%s%s%s; "
         "see 'knurl --help'",
         name, near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "");
 }

@@ -1,9 +1,8 @@
 /* Measuring a response. SPDX-License-Identifier: MIT */
 #include "sweep.h"
 
-#include "faults.h"
-
-#include <knurl/loop.h>
+#include "say.h"
+#include "watch.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -136,37 +135,6 @@ static void analyse(const sweeping *s, sweep *result) {
     result->seconds = (double)s->ticks / s->rate;
 }
 
-static int has_fault(const faults *f) {
-    for (int32_t code = 0; code < FAULT_CODES; code++) {
-        if (f->counts[code] > 0 && code != KNURL_FAULT_OVERRUN) {
-            return code;
-        }
-    }
-    return 0;
-}
-
-/* Until the loop is done, or is to end. Returns the fault's code, or 0. */
-static int watch(const sweeping *s, knurl_device *device, int simulated, const volatile sig_atomic_t *interrupted,
-                 knurl_loop_stats *stats) {
-    faults f;
-    faults_start(&f);
-    do {
-        if (simulated) {
-            (void)knurl_loop_step(s->loop, 20);
-        } else {
-            (void)knurl_loop_wait(s->loop, 0.02);
-        }
-        (void)knurl_loop_get_stats(s->loop, stats);
-        faults_show(&f, device, simulated ? (double)stats->ticks / s->rate : -1.0);
-        if (*interrupted || has_fault(&f)) {
-            knurl_loop_request_stop(s->loop);
-        }
-        say_progress("%5.1f of %.1f s ", (double)stats->ticks / s->rate, (double)s->ticks / s->rate);
-    } while (stats->state == KNURL_LOOP_RUNNING);
-    say_progress_end();
-    return has_fault(&f);
-}
-
 static knurl_result judge(const sweeping *s, const knurl_loop_stats *stats, int fault, int is_interrupted) {
     if (s->is_away) {
         return knurl_fail(KNURL_ERROR_STATE,
@@ -187,7 +155,7 @@ static knurl_result judge(const sweeping *s, const knurl_loop_stats *stats, int 
     return KNURL_OK;
 }
 
-static knurl_result measure(knurl_device *device, sweeping *s, int simulated, const volatile sig_atomic_t *interrupted,
+static knurl_result measure(knurl_device *device, sweeping *s, int simulated, volatile sig_atomic_t *interrupted,
                             sweep *result) {
     knurl_loop_desc desc;
     knurl_loop_stats stats;
@@ -201,7 +169,7 @@ static knurl_result measure(knurl_device *device, sweeping *s, int simulated, co
     knurl_result failed = knurl_loop_create(&desc, &s->loop);
     failed = failed || simulated ? failed : knurl_loop_start(s->loop);
     if (!failed) {
-        const int fault = watch(s, device, simulated, interrupted, &stats);
+        const int fault = watch_loop(s->loop, device, s->ticks, s->rate, simulated, interrupted, &stats);
         failed = judge(s, &stats, fault, *interrupted);
     }
     knurl_loop_destroy(s->loop);
@@ -212,7 +180,7 @@ static knurl_result measure(knurl_device *device, sweeping *s, int simulated, co
     return failed;
 }
 
-knurl_result sweep_run(knurl_device *device, double rate, int simulated, const volatile sig_atomic_t *interrupted,
+knurl_result sweep_run(knurl_device *device, double rate, int simulated, volatile sig_atomic_t *interrupted,
                        sweep *result) {
     sweeping s;
     knurl_device_info info;
@@ -229,4 +197,22 @@ knurl_result sweep_run(knurl_device *device, double rate, int simulated, const v
                  : knurl_fail(KNURL_ERROR_MEMORY, "no memory for %llu positions", (unsigned long long)s.ticks);
     free(s.positions);
     return failed;
+}
+
+uint32_t sweep_count_clear(const sweep *s) {
+    uint32_t count = 0;
+    while (count < s->row_count && s->rows[count].gain > 5.0 * s->rows[count].noise) {
+        count++;
+    }
+    return count;
+}
+
+void sweep_write(const sweep *s, FILE *stream, const char *name) {
+    say(stream, "# knurl response 1\n");
+    say(stream, "# %s: m of motion along y per N, at %g N and %g Hz, in the hand that held it\n", name, s->newtons,
+        s->rate);
+    say(stream, "frequency_hz,gain\n");
+    for (uint32_t i = 0; i < sweep_count_clear(s); i++) {
+        say(stream, "%.8g,%.6g\n", s->rows[i].hz, s->rows[i].gain);
+    }
 }

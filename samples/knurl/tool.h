@@ -10,6 +10,7 @@
 
 #include <knurl/device.h>
 #include <knurl/gltf.h>
+#include <knurl/hip.h>
 #include <knurl/query.h>
 
 #include <stddef.h>
@@ -38,6 +39,9 @@ int tool_check_even(const char *command, int even, const char *response);
 /* --response FILE, or --even (path null): HIP 0's gains, by the file or by the device's mass and friction. TOOL_OK, or
  * TOOL_FAILURE having said why. */
 int tool_even(knurl_scene *scene, const char *path, const knurl_device *device, double rate);
+
+/* The gains from a response's file. TOOL_OK, or TOOL_FAILURE having said why. */
+int tool_read_response(const char *path, knurl_gain gains[KNURL_GAINS]);
 
 /* "even": {"lowest_gain", "from_hz", "to_hz"} of HIP 0, if it has gains. */
 void tool_print_even(json_writer *json, const knurl_scene *scene);
@@ -68,5 +72,6 @@ int cmd_bench(int argc, char **argv);
 int cmd_devices(int argc, char **argv);
 int cmd_calibrate(int argc, char **argv);
 int cmd_sweep(int argc, char **argv);
+int cmd_verify(int argc, char **argv);
 
 #endif

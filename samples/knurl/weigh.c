@@ -12,20 +12,10 @@
 #define STIFFNESS 400.0  /* N/m: soft, so that a hand can always stop it */
 #define INTEGRAL  300.0  /* N/m/s */
 #define DAMPING   8.0    /* N s/m */
-#define MOST      5.0    /* N, each axis */
 #define GRAVITY   9.80665
 
-typedef struct weighing {
-    double height;
-    double latest[3];
-    double speed[3]; /* low-passed */
-    double lag;      /* m s */
-    double sum;
-    uint64_t count;
-} weighing;
-
-static double clamp(double value) {
-    return fmin(MOST, fmax(-MOST, value));
+static double clamp(const weighing *w, double value) {
+    return fmin(w->most, fmax(-w->most, value));
 }
 
 /* Up and down at a steady speed. */
@@ -34,7 +24,7 @@ static double target(const weighing *w, double t) {
     return w->height + REACH * (phase < 0.25 ? 4.0 * phase : phase < 0.75 ? 2.0 - 4.0 * phase : 4.0 * phase - 4.0);
 }
 
-static void hold(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user) {
+void weigh_hold(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user) {
     weighing *w = user;
     const double t = (double)tick / RATE;
     if (tick == 0) {
@@ -46,12 +36,13 @@ static void hold(uint64_t tick, const knurl_device_sample *sample, double force[
         w->speed[axis] += 0.1 * (speed - w->speed[axis]);
         w->latest[axis] = sample->position[axis];
         const double miss = (axis == 1 ? target(w, t) : 0.0) - sample->position[axis];
-        w->lag += axis == 1 && fabs(INTEGRAL * w->lag) < MOST ? miss / RATE : 0.0;
-        force[axis] = clamp(STIFFNESS * miss - DAMPING * w->speed[axis] + (axis == 1 ? INTEGRAL * w->lag : 0.0));
+        w->lag += axis == 1 && fabs(INTEGRAL * w->lag) < w->most ? miss / RATE : 0.0;
+        force[axis] = clamp(w, STIFFNESS * miss - DAMPING * w->speed[axis] + (axis == 1 ? INTEGRAL * w->lag : 0.0));
     }
     if (t >= WEIGH_SECONDS - 2.0 * TURN) { /* it has settled by then */
         w->sum += force[1];
         w->count++;
+        w->cut += fabs(force[1]) >= w->most;
     }
 }
 
@@ -62,9 +53,10 @@ knurl_result weigh(knurl_device *device, double *height, double *newtons) {
     knurl_loop *loop = NULL;
     memset(&w, 0, sizeof w);
     w.height = *height;
+    w.most = WEIGH_FORCE_MAX;
     knurl_loop_desc_init(&desc, sizeof desc);
     desc.device = device;
-    desc.force_callback = hold;
+    desc.force_callback = weigh_hold;
     desc.protections |= KNURL_PROTECT_SLEW;
     desc.user = &w;
     desc.update_rate_hz = RATE;

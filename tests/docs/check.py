@@ -13,7 +13,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 README_MOST = 6 * 1024  # bytes
 SAMPLE = "samples/feel_scene.c"
 SCREENSHOTS = {"web.png", "web_phone.png", "godot.png", "blender.png", "tutorial_blender.png",
-               "tutorial_godot.png"} # not drawings: their dark variants are screenshots, too
+               "tutorial_godot.png", "verify.png"} # not drawings: their dark variants are screenshots, too
 
 
 def pages():

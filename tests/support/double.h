@@ -3,6 +3,8 @@
 #ifndef KNURL_TEST_DOUBLE_H
 #define KNURL_TEST_DOUBLE_H
 
+#include "device/fake/plant.h"
+
 #include <knurl/device.h>
 
 /** Faults of a double. */
@@ -37,6 +39,14 @@ typedef struct device_double {
      * check. */
     knurl_device *(*open_backwards)(void);
     double alone_ms; /**< for which its firmware plays on by itself when nothing reaches it any more; 0: not at all */
+    /** A hand like the fake device's holds it (1), or lets it go (0); null: it has no mechanics. */
+    void (*hold)(int is_held);
 } device_double;
+
+static inline void double_hold(knurl_plant *plant, int is_held) {
+    plant->config.hand_stiffness = is_held ? 700.0 : 0.0;
+    plant->config.hand_damping = is_held ? 5.0 : 0.0;
+    plant->motion.step = 0.0; /* computed anew */
+}
 
 #endif

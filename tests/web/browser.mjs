@@ -9,6 +9,7 @@ import { cases as own } from "./own.mjs";
 import { cases as packed } from "./packed.mjs";
 import { cases as page } from "./page.mjs";
 import { cases as pictures } from "./pictures.mjs";
+import { cases as report } from "./report.mjs";
 import { cases as timed } from "./timed.mjs";
 
 const LANES = 2;
@@ -16,7 +17,7 @@ const SHORT = ["a stroke by the pointer crosses ridges and pushes back", "arrow 
   "a file without tags is shown; a click gives a part ridges that are felt and saved", "forces are the native tick's, and their sound is played",
   "a hostile file gets a sentence, and what was there goes on"];
 const isChosen = ([name]) => name.includes(process.env.ONLY ?? "") && (!process.env.SHORT || SHORT.includes(name));
-const total = [page, pictures, equal, felt, own, packed, hostile, timed].reduce((sum, cases) => sum + Object.keys(cases).length, 0);
+const total = [page, pictures, equal, felt, own, packed, hostile, report, timed].reduce((sum, cases) => sum + Object.keys(cases).length, 0);
 let count = 0;
 let failed = 0;
 
@@ -36,7 +37,7 @@ async function runAll(cases) {
 }
 
 await runAll(Object.entries(timed).filter(isChosen));
-const others = Object.entries({ ...page, ...pictures, ...equal, ...felt, ...own, ...packed, ...hostile }).filter(isChosen);
+const others = Object.entries({ ...page, ...pictures, ...equal, ...felt, ...own, ...packed, ...hostile, ...report }).filter(isChosen);
 await Promise.all(Array.from({ length: LANES }, () => runAll(others)));
 if (complaints.length > 0) {
   failed++;

@@ -45,6 +45,10 @@ static void double_close(knurl_device *device) {
     knurl_device_close(device);
 }
 
+static void double_hold_grip(int is_held) {
+    dhd_stub.set(STUB_DHD_LOOSE, !is_held);
+}
+
 /* The library exposes no bytes, and it is not known to refuse forces. */
 const device_double dhd_double = {"dhd",
                                   1u << DOUBLE_WELL | 1u << DOUBLE_UNPLUG | 1u << DOUBLE_MUTE | 1u << DOUBLE_HANG |
@@ -54,4 +58,5 @@ const device_double dhd_double = {"dhd",
                                   double_limp_since,
                                   double_close,
                                   NULL,
-                                  20.0}; /* while a call blocks, the force stays */
+                                  20.0, /* while a call blocks, the force stays */
+                                  double_hold_grip};

@@ -37,7 +37,7 @@ static struct {
     int opens;
     int error;
     int is_on; /* forces are enabled */
-    int settings[3];
+    int settings[STUB_DHD_SETTINGS];
     int cause;       /* of the last time that they were switched off */
     double force[3]; /* that its motors play */
     double others[3];
@@ -275,6 +275,9 @@ int64_t stub_dhd_limp_since(void) {
 void stub_dhd_set(int setting, int value) {
     lock();
     stub.settings[setting] = value;
+    if (setting == STUB_DHD_LOOSE) {
+        double_hold(&stub.plant, !value);
+    }
     (void)end(0);
 }
 

@@ -21,7 +21,7 @@ typedef void (*stub_dhd_inject_function)(int fault); /**< DOUBLE_ */
 typedef void (*stub_dhd_ask_function)(double force[3], double others[3]);
 
 /** Settings: its system type; the cause of the next DOUBLE_OFF (DHD_FORCEOFF_); 1: commands of a force time out. */
-enum { STUB_DHD_TYPE, STUB_DHD_CAUSE, STUB_DHD_REFUSES };
+enum { STUB_DHD_TYPE, STUB_DHD_CAUSE, STUB_DHD_REFUSES, STUB_DHD_LOOSE, STUB_DHD_SETTINGS };
 typedef void (*stub_dhd_set_function)(int setting, int value);
 typedef int64_t (*stub_dhd_limp_function)(void); /**< ns: start of its motors' zero force; 0: they have a force */
 typedef int (*stub_dhd_opens_function)(void);    /**< opened less closed */

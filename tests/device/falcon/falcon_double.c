@@ -47,6 +47,12 @@ static void double_close(knurl_device *device) {
     falcon_fake_free(&fake);
 }
 
+static void double_hold_grip(int is_held) {
+    knurl_system_mutex_lock(&fake.lock);
+    double_hold(&fake.sim.plant, is_held);
+    knurl_system_mutex_unlock(&fake.lock);
+}
+
 const device_double falcon_double = {
     .name = "falcon",
     .faults = 1u << DOUBLE_WELL | 1u << DOUBLE_UNPLUG | 1u << DOUBLE_MUTE | 1u << DOUBLE_HANG | 1u << DOUBLE_LATE |
@@ -56,4 +62,5 @@ const device_double falcon_double = {
     .limp_since = double_limp_since,
     .close = double_close,
     .open_backwards = double_open_backwards,
+    .hold = double_hold_grip,
 };

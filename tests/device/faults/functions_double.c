@@ -59,7 +59,7 @@ static int64_t limp_since(void) {
     (1u << DOUBLE_UNPLUG | 1u << DOUBLE_MUTE | 1u << DOUBLE_HANG | 1u << DOUBLE_LATE | 1u << DOUBLE_NAN |              \
      1u << DOUBLE_JUMP)
 
-const device_double functions_double = {"functions", FAULTS, open_blocking, inject, limp_since, knurl_device_close,
-                                        NULL,        0.0};
+const device_double functions_double = {"functions",        FAULTS, open_blocking, inject, limp_since,
+                                        knurl_device_close, NULL,   0.0,           NULL};
 const device_double plain_double = {"functions, not blocking", 0,    open_plain, inject, limp_since,
-                                    knurl_device_close,        NULL, 0.0};
+                                    knurl_device_close,        NULL, 0.0,        NULL};

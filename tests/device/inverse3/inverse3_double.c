@@ -200,6 +200,12 @@ static int64_t double_limp_since(void) {
     return since < 0.0 ? 0 : (int64_t)(since * 1e9);
 }
 
+static void double_hold_grip(int is_held) {
+    knurl_system_mutex_lock(&d.mutex);
+    double_hold(&d.sim.plant, is_held);
+    knurl_system_mutex_unlock(&d.mutex);
+}
+
 const device_double inverse3_double = {"inverse3",
                                        1u << DOUBLE_WELL | 1u << DOUBLE_UNPLUG | 1u << DOUBLE_MUTE | 1u << DOUBLE_HANG |
                                            1u << DOUBLE_LATE | 1u << DOUBLE_SHORT | 1u << DOUBLE_CORRUPT |
@@ -210,4 +216,5 @@ const device_double inverse3_double = {"inverse3",
                                        double_limp_since,
                                        knurl_device_close,
                                        NULL,
-                                       20.0}; /* while a call blocks, the force stays */
+                                       20.0, /* while a call blocks, the force stays */
+                                       double_hold_grip};

@@ -51,6 +51,12 @@ static void double_close(knurl_device *device) {
     fake_hid_destroy(&hid);
 }
 
+static void double_hold_grip(int is_held) {
+    knurl_system_mutex_lock(&hid.mutex);
+    double_hold(&hid.sim.plant, is_held);
+    knurl_system_mutex_unlock(&hid.mutex);
+}
+
 /* A HID report comes whole or not at all, its encoders are whole numbers, and it has no word for a refused force. */
 const device_double rawhid_double = {"rawhid",
                                      1u << DOUBLE_WELL | 1u << DOUBLE_UNPLUG | 1u << DOUBLE_MUTE | 1u << DOUBLE_HANG |
@@ -61,4 +67,5 @@ const device_double rawhid_double = {"rawhid",
                                      double_limp_since,
                                      double_close,
                                      double_open_backwards,
-                                     500.0};
+                                     500.0,
+                                     double_hold_grip};

@@ -195,6 +195,12 @@ static void double_close(knurl_device *device) {
     knurl_system_mutex_destroy(&d.mutex);
 }
 
+static void double_hold_grip(int is_held) {
+    knurl_system_mutex_lock(&d.mutex);
+    double_hold(&d.sim.plant, is_held);
+    knurl_system_mutex_unlock(&d.mutex);
+}
+
 const device_double serial_double = {"serial",
                                      1u << DOUBLE_WELL | 1u << DOUBLE_UNPLUG | 1u << DOUBLE_MUTE | 1u << DOUBLE_HANG |
                                          1u << DOUBLE_LATE | 1u << DOUBLE_SHORT | 1u << DOUBLE_SPLIT |
@@ -204,4 +210,5 @@ const device_double serial_double = {"serial",
                                      double_limp_since,
                                      double_close,
                                      double_open_backwards,
-                                     100.0};
+                                     100.0,
+                                     double_hold_grip};

@@ -4,6 +4,8 @@
  * errors go on one stack and the current device is one for all threads. SPDX-License-Identifier: MIT */
 #include "stub_state.h"
 
+#include "support/double.h"
+
 stub_state hd = {
     .time = {knurl_system_now_ns, knurl_system_sleep_until_ns, knurl_system_start_thread, knurl_system_join_thread},
     .current = NONE,
@@ -439,6 +441,9 @@ void stub_set(int device, int setting, double value) {
     lock();
     hd.devices[device].settings[setting] = value;
     hd.settings[setting] = value;
+    if (setting == STUB_LOOSE) {
+        double_hold(&hd.devices[device].plant, value == 0.0);
+    }
     if (setting == STUB_ERRORS && value >= 0.0) {
         hd.endless = 0;
         hd.error_count = 0;

@@ -20,6 +20,7 @@ enum {
     STUB_STYLES,        /* a mask of the styles of calibration that it offers; 0 means: automatic and inkwell */
     STUB_MENDS,         /* 1: hdUpdateCalibration() with one of these styles makes it calibrated */
     STUB_STROKE,        /* KNURL_STROKE_ of the hand at the next initialisation; 0: line */
+    STUB_LOOSE,         /* 1: no hand holds it */
     STUB_RANDOM,        /* 1: results and errors are random */
     STUB_TELLS_NOTHING, /* 1: knows none of its properties */
     STUB_INIT_ERROR,    /* an error code that initialising brings */

@@ -52,10 +52,15 @@ static void close_double(knurl_device *device) {
     knurl_system_unload_library(stub.library);
 }
 
+static void hold(int is_held) {
+    stub.set(STUB_DEFAULT, STUB_LOOSE, !is_held);
+}
+
 const device_double touch_double = {.name = "touch",
                                     .faults = 1u << DOUBLE_WELL | 1u << DOUBLE_UNPLUG | 1u << DOUBLE_NAN |
                                               1u << DOUBLE_JUMP | 1u << DOUBLE_REFUSE | 1u << DOUBLE_UNHOMED,
                                     .open = open_double,
                                     .inject = inject,
                                     .limp_since = limp_since,
-                                    .close = close_double};
+                                    .close = close_double,
+                                    .hold = hold};
