@@ -205,6 +205,35 @@ TEST(a_box_leaves_uvs_out_and_of_a_box_and_an_axis_the_later_one_wins) {
     assert_string_equal(coordinates_of(R"("coordinates":"box")", R"(,"axis":[0,1,0])").c_str(), "axis along y");
 }
 
+TEST(wrong_tags_are_told_and_left_out_if_asked_for) {
+    File file = quad();
+    file.nodes = R"({"mesh":0},{"name":"hard","mesh":0,"extras":{"knurl_stiffness":-1}},)"
+                 R"({"name":"empty","extras":{"knurl_stiffness":1}},{"mesh":0,"extras":{"knurl_friction":0.5}})";
+    std::vector<std::string> told;
+    Loaded loaded;
+    loaded.options.user = &told;
+    loaded.options.wrong_tag = [](void *user, const char *message) {
+        static_cast<std::vector<std::string> *>(user)->emplace_back(message);
+    };
+    loaded.assert_loads(file.glb());
+    assert_int_equal(loaded.report.surfaces, 2);
+    assert_int_equal(loaded.report.skipped, 1);
+    assert_int_equal(told.size(), 2);
+    assert_non_null(strstr(told[0].c_str(), "node 'hard' (1): knurl_stiffness: expected a number > 0 (N/m), found -1"));
+    assert_non_null(strstr(told[1].c_str(), "node 'empty' (2): extras: a knurl tag would be lost here"));
+    assert_fails(file.glb(), KNURL_ERROR_FORMAT, {told[0].c_str()});
+
+    told.clear();
+    file.nodes = R"({"mesh":0},{"mesh":0,"extras":{"knurl":{"version":1,"friction":0.5}}})";
+    file.materials = "{}";
+    loaded.assert_loads(file.glb());
+    assert_int_equal(loaded.report.surfaces, 0);
+    assert_int_equal(loaded.report.skipped, 2);
+    assert_int_equal(told.size(), 1);
+    assert_non_null(strstr(told[0].c_str(), "knurl.spatial_frequency: missing"));
+    assert_int_equal(knurl_scene_get_surface_count(loaded.scene), 2);
+}
+
 TEST(long_and_odd_names_keep_the_message_readable) {
     for (const char *start : {"", "x", "xx"}) { // 64 bytes end after, in or before a character of three
         File odd = quad();

@@ -219,6 +219,14 @@ func comes_late() -> void:
 	make_surface(plate())
 	d.start()
 	check("and stay", d.get_status().surfaces == 4, d.get_status().surfaces)
+	d.stop()
+	var bytes := FileAccess.get_file_as_bytes("res://plate_1d.glb")
+	for i in bytes.size() - 20:
+		if bytes.slice(i, i + 15).get_string_from_ascii() == "knurl_amplitude":
+			bytes[i + 14] = "o".unicode_at(0)
+			break
+	FileAccess.open("res://misspelt.glb", FileAccess.WRITE).store_buffer(bytes)
+	check("a wrong tag leaves the others", d.load_gltf("res://misspelt.glb") == 2)
 	clear()
 
 

@@ -250,14 +250,22 @@ static char *globalise(const void *path) {
     return text;
 }
 
+static void warn_of_tag(void *user, const char *message) {
+    gd_warning("KnurlDevice.load_gltf", "KnurlDevice.load_gltf: %s: %s", (const char *)user, message);
+}
+
 static void load_gltf(void *self, const void *const *arguments, void *result) {
     device *d = self;
+    knurl_gltf_options options;
     knurl_gltf_report report;
     int64_t count = -1;
     char *path = globalise(arguments[0]);
+    knurl_gltf_options_init(&options, sizeof options);
+    options.wrong_tag = warn_of_tag;
+    options.user = path;
     knurl_gltf_report_init(&report, sizeof report);
     knurl_result failed = path ? device_make_session(d) : knurl_fail(KNURL_ERROR_MEMORY, "no memory for a path");
-    failed = failed ? failed : knurl_gltf_load_file(knurl_session_get_scene(d->session), path, NULL, &report);
+    failed = failed ? failed : knurl_gltf_load_file(knurl_session_get_scene(d->session), path, &options, &report);
     if (failed) {
         (void)device_fail("KnurlDevice.load_gltf", failed);
     } else {

@@ -29,7 +29,11 @@ typedef struct knurl_gltf_options {
     /** Called on the loading thread several times a second with the progress, 0 to 1, never decreasing; or null. A
      * return value other than 0 cancels the load (KNURL_ERROR_CANCELLED). */
     int32_t (*progress)(void *user, double done);
-    void *user; /**< passed to file_read and progress */
+    void *user; /**< passed to the callbacks */
+    /** Called for each wrong tag with its message, without the file's name, valid during the call. What has that tag is
+     * left out, counted in knurl_gltf_report.skipped, and the rest is loaded. Null: the first wrong tag fails the
+     * load. A skin or morph target on a tagged mesh counts as a wrong tag. */
+    void (*wrong_tag)(void *user, const char *message);
 } knurl_gltf_options;
 
 /** Zeroes it and sets struct_size; `size` is the caller's sizeof. [any thread] */
@@ -39,7 +43,8 @@ KNURL_API void knurl_gltf_options_init(knurl_gltf_options *options, uint32_t siz
 typedef struct knurl_gltf_report {
     uint32_t struct_size;
     uint32_t surfaces; /**< added to the scene: one per node and tagged primitive */
-    uint32_t skipped;  /**< untagged primitives, counted once per node that shows them */
+    uint32_t skipped;  /**< primitives without a tag, or with a wrong one (knurl_gltf_options.wrong_tag), counted once
+                          per node that shows them */
     uint32_t reserved; /**< 0 */
 } knurl_gltf_report;
 

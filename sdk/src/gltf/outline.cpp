@@ -48,12 +48,32 @@ void check_asset(const Fields &root) {
     }
 }
 
+/// Runs a step for one tag. Returns whether it is good; a wrong one fails the load unless the caller wants to be told.
+template <typename Step>
+bool is_good(const Budget &budget, const Step &step) {
+    try {
+        step();
+        return true;
+    } catch (const Failure &failure) {
+        if (!budget.tell_wrong_tag(failure.what()))
+            throw;
+        return false;
+    }
+}
+
 /// Reads every tag of the array under `key`, even of objects that the scene does not show, to report mistakes in them.
-Tags read_tags(const Fields &root, const char *key, const char *kind) {
+Tags read_tags(const Fields &root, const Budget &budget, const char *key, const char *kind) {
     Tags tags;
-    for (size_t i = 0; i < root.array(key).size(); ++i)
-        if (std::optional<Tag> tag = read_tag(root.item(key, kind, i)))
+    for (size_t i = 0; i < root.array(key).size(); ++i) {
+        const Fields owner = root.item(key, kind, i);
+        std::optional<Tag> tag;
+        if (!is_good(budget, [&] { tag = read_tag(owner); })) {
+            tag.emplace();
+            tag->wrong = true;
+        }
+        if (tag)
             tags.emplace(i, *std::move(tag));
+    }
     return tags;
 }
 
@@ -75,9 +95,9 @@ class Reader {
     Outline read() {
         check_asset(root_);
         Hierarchy hierarchy = read_hierarchy(root_);
-        materials_ = read_tags(root_, "materials", "material");
-        meshes_ = read_tags(root_, "meshes", "mesh");
-        nodes_ = read_tags(root_, "nodes", "node");
+        materials_ = read_tags(root_, budget_, "materials", "material");
+        meshes_ = read_tags(root_, budget_, "meshes", "mesh");
+        nodes_ = read_tags(root_, budget_, "nodes", "node");
         refuse_lost_tags();
         check_count(hierarchy.shown);
         for (const uint32_t node : hierarchy.shown) {
@@ -90,13 +110,17 @@ class Reader {
 
   private:
     void refuse_lost_tags() const {
-        refuse_tag(root_, "tag a material, mesh or node");
+        refuse_lost(root_, "tag a material, mesh or node");
         for (size_t i = 0; i < root_.array("scenes").size(); ++i)
-            refuse_tag(root_.item("scenes", "scene", i), "tag a material, mesh or node");
+            refuse_lost(root_.item("scenes", "scene", i), "tag a material, mesh or node");
         for (const auto &[index, tag] : nodes_)
             if (root_.item("nodes", "node", index).find("mesh") == nullptr)
-                refuse_tag(root_.item("nodes", "node", index),
-                           "the node shows no mesh; tag nodes below it that do, their meshes or materials");
+                refuse_lost(root_.item("nodes", "node", index),
+                            "the node shows no mesh; tag nodes below it that do, their meshes or materials");
+    }
+
+    void refuse_lost(const Fields &owner, const char *instead) const {
+        (void)is_good(budget_, [&] { refuse_tag(owner, instead); });
     }
 
     const MeshPlan &plan(uint32_t index) {
@@ -108,7 +132,7 @@ class Reader {
         const bool mesh_tagged = find(meshes_, index) != nullptr;
         for (size_t i = 0; i < mesh.array("primitives").size(); ++i) {
             const Fields primitive = mesh.element("primitives", i);
-            refuse_tag(primitive, "tag the mesh, its node or a material");
+            refuse_lost(primitive, "tag the mesh, its node or a material");
             const auto material = primitive.index("material", root_.array("materials").size(), "materials");
             made.materials.push_back(material);
             if (mesh_tagged || find(materials_, material) != nullptr)
@@ -158,6 +182,20 @@ class Reader {
         for (const Tag *tag : {find(materials_, material_index), find(meshes_, mesh_index), find(nodes_, index)})
             if (tag != nullptr)
                 instance.tag.override_with(*tag);
+        if (instance.tag.wrong || !is_good(budget_, [&] { check(instance, node, mesh, material_index); })) {
+            outline_.skipped += outline_.skipped < std::numeric_limits<uint32_t>::max() ? 1 : 0;
+            return;
+        }
+        if (material_index)
+            instance.double_sided =
+                root_.item("materials", "material", *material_index).flag("doubleSided").value_or(false);
+        instance.name = surface_name(node, index, mesh, primitive, material_index, shape.materials.size());
+        outline_.instances.push_back(std::move(instance));
+    }
+
+    /// Whether a tagged primitive has all that a surface needs.
+    void check(const Instance &instance, const Fields &node, const Fields &mesh,
+               std::optional<uint32_t> material_index) const {
         if (const char *key = instance.tag.missing_key())
             refuse(where_of(root_, instance),
                    std::string("knurl.") + key + ": missing: expected in extras of " +
@@ -165,14 +203,9 @@ class Reader {
                        mesh.where() + " or " + node.where());
         if (node.find("skin") != nullptr)
             refuse(where_of(root_, instance), "skin: a tagged mesh cannot be skinned", KNURL_ERROR_UNSUPPORTED);
-        if (mesh.element("primitives", primitive).array("targets").size() > 0)
+        if (mesh.element("primitives", instance.primitive).array("targets").size() > 0)
             refuse(where_of(root_, instance), "targets: a tagged mesh cannot have morph targets",
                    KNURL_ERROR_UNSUPPORTED);
-        if (material_index)
-            instance.double_sided =
-                root_.item("materials", "material", *material_index).flag("doubleSided").value_or(false);
-        instance.name = surface_name(node, index, mesh, primitive, material_index, shape.materials.size());
-        outline_.instances.push_back(std::move(instance));
     }
 
     /// Does not depend on other tags, so that scripts can rely on the name.

@@ -158,6 +158,7 @@ void Tag::override_with(const Tag &other) {
         coordinates.reset(); // of an axis and a box the later one wins
     if (other.coordinates)
         axis.reset();
+    wrong = wrong || other.wrong;
     take(spatial_frequency, other.spatial_frequency);
     for (const Key &key : keys)
         if (key.to != nullptr)

@@ -21,6 +21,7 @@ struct Tag {
     std::optional<int32_t> coordinates;        ///< KNURL_COORDINATES_
     std::optional<int32_t> method;
     std::optional<bool> smooth; ///< KNURL_SMOOTH_ON or _OFF; empty: _AUTO
+    bool wrong = false;         ///< the caller was told of a mistake in it: not loaded
 
     /** Replaces each key that `other` has. */
     void override_with(const Tag &other);

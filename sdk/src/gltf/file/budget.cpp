@@ -80,6 +80,13 @@ void Budget::step(double done) {
         throw Failure(KNURL_ERROR_CANCELLED, "the load was cancelled");
 }
 
+bool Budget::tell_wrong_tag(const char *message) const {
+    if (options_.wrong_tag == nullptr)
+        return false;
+    options_.wrong_tag(options_.user, message);
+    return true;
+}
+
 void Budget::tell_read(const std::filesystem::path &path) const {
     if (options_.file_read != nullptr)
         options_.file_read(options_.user, path.u8string().c_str());

@@ -38,6 +38,9 @@ class Budget {
         step(done_);
     }
 
+    /** Whether the caller was told of a wrong tag, which is then left out. */
+    bool tell_wrong_tag(const char *message) const;
+
     /** Tells the caller which file was read. */
     void tell_read(const std::filesystem::path &path) const;
 

@@ -316,8 +316,8 @@ namespace Knurl
         public Godot.Collections.Array ListDevices() { return Object.Call("list_devices").AsGodotArray(); }
 
         /// <summary>Adds all surfaces tagged in the extras of a .gltf or .glb file at the scene's origin, without
-        /// nodes; they exist as long as this node. Returns their number, or -1 after an error. The file must be on
-        /// disk, also in an exported game.</summary>
+        /// nodes; they exist as long as this node. A wrong tag is left out, with a warning, as at import. Returns their
+        /// number, or -1 after an error. The file must be on disk, also in an exported game.</summary>
         public long LoadGltf(string path) { return Object.Call("load_gltf", path).AsInt64(); }
 
         /// <summary>Moves the haptic interaction point of the device mouse. Steps are smoothed, with a delay of 25
