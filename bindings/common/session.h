@@ -219,6 +219,10 @@ KNURL_API knurl_result knurl_session_get_sound(knurl_session *session, double sa
  * [audio thread, one per run] */
 KNURL_API void knurl_sound_fill(knurl_sound *sound, float *samples, uint32_t count) KNURL_NONBLOCKING;
 
+/** The force for a gamepad's two rumble motors, see knurl_audio_get_rumble(); it needs no fill. Errors:
+ * KNURL_ERROR_ARGUMENT. [any thread] */
+KNURL_API knurl_result knurl_sound_get_rumble(const knurl_sound *sound, double rumble[2]);
+
 /** Releases a sound, also after its session was destroyed; null is allowed. [any thread, after its last fill] */
 KNURL_API void knurl_sound_release(knurl_sound *sound);
 

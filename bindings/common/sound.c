@@ -51,6 +51,10 @@ void knurl_sound_fill(knurl_sound *sound, float *samples, uint32_t count) {
     }
 }
 
+knurl_result knurl_sound_get_rumble(const knurl_sound *sound, double rumble[2]) {
+    return KNURL_IS_NULL(sound) ? KNURL_ERROR_ARGUMENT : knurl_audio_get_rumble(sound->audio, rumble);
+}
+
 void knurl_sound_release(knurl_sound *sound) {
     if (sound && __atomic_sub_fetch(&sound->owners, 1, __ATOMIC_ACQ_REL) == 0) {
         knurl_audio_destroy(sound->audio);

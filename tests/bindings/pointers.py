@@ -88,6 +88,8 @@ VALUES = {
     "knurl_sound_fill.sound": "f->sound",
     "knurl_sound_fill.samples": "f->history",
     "knurl_sound_fill.count": "1",
+    "knurl_sound_get_rumble.sound": "f->sound",
+    "knurl_sound_get_rumble.rumble": "f->vector",
     "knurl_sound_release.sound": "f->sound",
     "knurl_wave_prepare.method": "KNURL_WAVE_T3",
     "knurl_loop_vibrate.method": "KNURL_WAVE_T3",

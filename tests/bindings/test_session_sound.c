@@ -76,6 +76,20 @@ TEST(a_run_has_one_sound_and_the_next_run_another) {
     knurl_sound_release(next);
 }
 
+TEST(a_stroke_rumbles_and_a_rest_does_not) {
+    SCOPED_SESSION *s = ridges();
+    knurl_sound *sound = sound_of(s);
+    double rumble[2];
+    (void)play(s, sound, 0.0, 60);
+    assert_int_equal(knurl_sound_get_rumble(sound, rumble), KNURL_OK);
+    assert_true(rumble[0] < 1e-3 && rumble[1] < 1e-3);
+    (void)play(s, sound, 0.001, 100); /* 100 Hz: above the crossover */
+    assert_int_equal(knurl_sound_get_rumble(sound, rumble), KNURL_OK);
+    assert_true(rumble[1] > 0.02 && rumble[1] > rumble[0] && rumble[1] <= 1.0);
+    assert_int_equal(knurl_sound_get_rumble(NULL, rumble), KNURL_ERROR_ARGUMENT);
+    knurl_sound_release(sound);
+}
+
 TEST(a_sound_needs_a_run_and_a_sample_rate) {
     knurl_session *s = make_session();
     knurl_sound *sound = NULL;

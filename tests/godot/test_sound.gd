@@ -92,7 +92,28 @@ func routes() -> void:
 	AudioServer.remove_bus(1)
 
 
+# The motors of a gamepad, which need not be connected for the engine to note their strength.
+func rumbles() -> void:
+	make_surface(plate(0.2)).grating.spatial_frequency = Vector2(1000, 0)
+	var d := make_device("fake", "line")
+	d.rumble = 3
+	d.start()
+	check("a stroke turns the motors", await until(func() -> bool: return Input.get_joy_vibration_strength(3).x > 0.02),
+			Input.get_joy_vibration_strength(3))
+	check("above all the fast one, at 100 ridges a second", await until(func() -> bool:
+		return Input.get_joy_vibration_strength(3).x > Input.get_joy_vibration_strength(3).y),
+			Input.get_joy_vibration_strength(3))
+	check("within their strength", Input.get_joy_vibration_strength(3).x <= 1.0)
+	d.rumble = 4
+	check("another gamepad takes over", Input.get_joy_vibration_strength(3) == Vector2.ZERO)
+	check("at once", await until(func() -> bool: return Input.get_joy_vibration_strength(4).x > 0.02))
+	d.stop()
+	check("and stops with the device", Input.get_joy_vibration_strength(4) == Vector2.ZERO)
+	clear()
+
+
 func tests() -> void:
+	await rumbles()
 	AudioServer.add_bus_effect(0, capture)
 	await strokes()
 	await rests()

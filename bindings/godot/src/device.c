@@ -4,6 +4,7 @@
 #include "effect.h"
 #include "explain.h"
 #include "follow.h"
+#include "rumble.h"
 #include "signals.h"
 #include "sound.h"
 #include "surface_node.h"
@@ -148,6 +149,7 @@ knurl_result device_prepare(device *d) {
 
 void device_release(device *d) {
     d->runs = 0;
+    rumble_stop(d);
     if (d->session) {
         knurl_session_close(d->session);
     }
@@ -337,6 +339,7 @@ void device_process(device *d) {
         follow_all(d);
         effects_follow(d, delta);
         knurl_session_update(d->session);
+        rumble_play(d);
     }
     if (d->runs || (d->wants_start && d->retries_in <= 0.0)) {
         signals_tell_later(gd.object_get_instance_id(d->base.object));

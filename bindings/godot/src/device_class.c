@@ -3,6 +3,7 @@
 #include "device_state.h"
 #include "explain.h"
 #include "ray.h"
+#include "rumble.h"
 #include "signals.h"
 #include "sound.h"
 #include "status.h"
@@ -31,6 +32,7 @@ static int init(void *self) {
     d->rate = 1000.0;
     d->workspace_scale = d->gain = 1.0;
     d->layers = 1;
+    d->rumble = -1;
     d->autostart = d->reconnect = d->clamp = 1;
     d->slot = -1;
     return d->uri && d->stroke && d->response;
@@ -94,6 +96,16 @@ static void change_sound(void *self, const void *value) {
     sound_stop(d);
     memcpy(&d->sound, value, sizeof d->sound);
     device_apply_sound(d);
+}
+
+static void change_rumble(void *self, const void *value) {
+    device *d = self;
+    rumble_stop(d);
+    memcpy(&d->rumble, value, sizeof d->rumble);
+}
+
+static void get_rumble(void *self, void *value) {
+    memcpy(value, &((const device *)self)->rumble, sizeof(int64_t));
 }
 
 static void get_sound(void *self, void *value) {
@@ -299,6 +311,7 @@ static const gd_property properties[] = {
      .hints = ",line,sweep,circle,press,rest"},
     {.name = "autostart", .type = BOOL, .offset = offsetof(device, autostart)},
     {.name = "sound", .type = BOOL, .get = get_sound, .set = change_sound},
+    {"rumble", INT, 0, -1.0, 15.0, 1.0, NULL, 0, get_rumble, change_rumble, NULL},
     {"layers", INT, offsetof(device, layers), 0.0, 255.0, 1.0, "1,2,3,4,5,6,7,8", GD_HINT_FLAGS, NULL, NULL,
      change_layers},
     {.name = "Workspace"},

@@ -75,7 +75,7 @@ static void mix(GDExtensionClassInstancePtr self, const GDExtensionConstTypePtr 
     *(int64_t *)result = count;
 }
 
-static double find_mix_rate(void) {
+double sound_mix_rate(void) {
     double rate = 0.0;
     gd_name name = gd_name_new("AudioServer");
     gd_variant found = gd_call_named(gd.global_get_singleton(&name), "get_mix_rate", NULL, 0);
@@ -124,7 +124,7 @@ knurl_result sound_start(const device *d) {
     if (!d->sound || !d->runs) {
         return KNURL_OK;
     }
-    const knurl_result result = knurl_session_get_sound(d->session, find_mix_rate(), &sound);
+    const knurl_result result = knurl_session_get_sound(d->session, sound_mix_rate(), &sound);
     if (result) {
         return result;
     }

@@ -13,4 +13,7 @@ extern const gd_class sound_playback_class;
 knurl_result sound_start(const device *d);
 void sound_stop(const device *d);
 
+/* The engine's, Hz. */
+double sound_mix_rate(void);
+
 #endif

@@ -59,6 +59,9 @@ typedef struct device {
     int64_t layers;
     float added_force[3]; /* N */
     uint8_t clutch, sound;
+    uint8_t rumbles;        /* 1: the motors were set and have not been stopped */
+    int64_t rumble;         /* gamepad whose motors play, or -1 */
+    knurl_sound *rumble_of; /* or null */
     uint8_t moved,
         by_physics; /* moved: 1: its node or scale changed since the last frame; by_physics: 1: by a physics step */
     uint8_t autostart, reconnect, clamp, even;

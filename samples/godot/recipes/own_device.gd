@@ -15,7 +15,8 @@ var place := Vector2.ZERO
 func _ready() -> void:
 	device.stop()
 	device.device = "mouse"  # the device that the game moves
-	device.sound = true  # it has no motors: the texture is heard
+	device.sound = true  # it has no motors: the texture is heard,
+	device.rumble = 0  # and played by the first gamepad
 	device.start()
 
 

@@ -256,6 +256,11 @@ namespace Knurl
         /// plug their device in later.</summary>
         public double Retry { get { return Object.Get("retry").AsDouble(); } set { Object.Set("retry", value); } }
 
+        /// <summary>The gamepad (as of Input.getConnectedJoypads) whose motors play the force: the slow motor from 3 to
+        /// 80 Hz, the fast one above, 1 N at full strength. For players without a force-feedback device, with Device
+        /// mouse. -1: none.</summary>
+        public long Rumble { get { return Object.Get("rumble").AsInt64(); } set { Object.Set("rumble", value); } }
+
         /// <summary>true while the haptic thread runs.</summary>
         public bool Running { get { return Object.Get("running").AsBool(); } }
 

@@ -114,6 +114,9 @@ var proxy_position: Vector3 = Vector3(0, 0, 0):
 @export var retry: float = 0.0:
 	set = set_retry,
 	get = get_retry
+@export var rumble: int = -1:
+	set = set_rumble,
+	get = get_rumble
 var running: bool = false:
 	get = is_running
 @export var sound: bool = false:
@@ -273,6 +276,14 @@ func set_retry(value: float) -> void:
 
 func get_retry() -> float:
 	return retry
+
+
+func set_rumble(value: int) -> void:
+	rumble = value
+
+
+func get_rumble() -> int:
+	return rumble
 
 
 func is_running() -> bool:
