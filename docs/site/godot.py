@@ -4,7 +4,7 @@ import re
 import xml.etree.ElementTree as ElementTree
 
 FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../bindings/godot/doc_classes")
-CLASSES = ("KnurlGrating", "KnurlSurface", "KnurlDevice")
+CLASSES = ("KnurlGrating", "KnurlSurface", "KnurlDevice", "KnurlEffect")
 ENGINE = "https://docs.godotengine.org/en/stable/classes/class_{}.html"
 
 

@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "a886c9aa67f162a9"
+#define KNURL_UNITY_INTERFACE "846060fee91918b3"
 
 /** The mirrored structs, as C# lays them out: STRUCT(type, bytes), FIELD(type, field, name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
@@ -271,7 +271,7 @@
     FIELD(knurl_fake_truth, velocity, "velocity", 24, 24) \
     FIELD(knurl_fake_truth, motor, "motor", 48, 24) \
     FIELD(knurl_fake_truth, hand, "hand", 72, 24) \
-    STRUCT(knurl_gltf_options, 64) \
+    STRUCT(knurl_gltf_options, 72) \
     FIELD(knurl_gltf_options, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_gltf_options, max_surfaces, "max_surfaces", 4, 4) \
     FIELD(knurl_gltf_options, max_bytes, "max_bytes", 8, 8) \
@@ -281,6 +281,7 @@
     FIELD(knurl_gltf_options, file_read, "file_read", 40, 8) \
     FIELD(knurl_gltf_options, progress, "progress", 48, 8) \
     FIELD(knurl_gltf_options, user, "user", 56, 8) \
+    FIELD(knurl_gltf_options, wrong_tag, "wrong_tag", 64, 8) \
     STRUCT(knurl_gltf_report, 16) \
     FIELD(knurl_gltf_report, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_gltf_report, surfaces, "surfaces", 4, 4) \

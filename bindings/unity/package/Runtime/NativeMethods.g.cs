@@ -413,6 +413,7 @@ namespace Knurl
         public IntPtr file_read;
         public IntPtr progress;
         public IntPtr user;
+        public IntPtr wrong_tag;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -683,6 +684,9 @@ namespace Knurl
     internal unsafe delegate int knurl_gltf_options_progress(IntPtr user, double done);
 
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    internal unsafe delegate void knurl_gltf_options_wrong_tag(IntPtr user, byte* message);
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     internal unsafe delegate void knurl_gltf_list_callback(IntPtr user, byte* array, uint index, byte* @object,
         byte* tag);
 
@@ -710,7 +714,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>The result of knurl_unity_interface() of the library that this file was generated for.</summary>
-        internal const string Interface = "a886c9aa67f162a9";
+        internal const string Interface = "846060fee91918b3";
 
         internal const string Version = "0.3.0";
 
@@ -1380,6 +1384,9 @@ namespace Knurl
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void knurl_sound_fill(knurl_sound* sound, float* samples, uint count);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int knurl_sound_get_rumble(knurl_sound* sound, double* rumble);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void knurl_sound_release(knurl_sound* sound);
