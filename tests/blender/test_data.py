@@ -1,6 +1,7 @@
 """Tags as Blender's data: numbers as typed, keys of other versions, undo, linked and overridden data, several objects.
 SPDX-License-Identifier: MIT"""
 import os
+import subprocess
 import sys
 
 import installed
@@ -46,6 +47,27 @@ class Data(installed.Case):
             loaded = bpy.context.object
             self.assertEqual(self.tag.read(loaded.active_material), later)
             bpy.data.objects.remove(loaded)
+
+    def test_what_was_typed_wrongly_by_hand_is_warned_of_and_drawn_as_nothing(self):
+        warnings_of = sys.modules[NAME + ".panel"].warnings_of
+        for key, value, words in (
+                ("spatial_frequency", "fine", "expected one or two numbers of 0 or more, found 'fine'"),
+                ("spatial_frequency", [1.0, 2.0, 3.0], "expected one or two numbers"),
+                ("amplitude", "0.1 mm", "expected a number of 0 or more"),
+                ("stiffness", -1.0, "expected a number above 0"),
+                ("orientation", "45", "expected a number, found '45'"),
+                ("axis", [0.0, 0.0, 0.0], "expected three numbers that are not all 0"),
+                ("axis", "z", "expected three numbers"),
+                ("amplitud", 1.0, "unknown")):
+            self.tag.write(self.material, {**self.tag.DEFAULT, key: value})
+            for shown in ("ridges", "ridges_across", "depth", "hardness", "turn", "across", "layout", "play", "flat"):
+                getattr(self.material, "knurl_" + shown)
+            said = warnings_of(self.material, self.object, bpy.context.evaluated_depsgraph_get())
+            self.assertEqual(len(said), 1, said)
+            self.assertIn(f"knurl_{key}: {words}", said[0])
+            with self.assertRaises(subprocess.CalledProcessError, msg=said):  # the tool refuses it, too
+                self.export(warned=True)
+                installed.inspect(self.path)
 
     def test_other_exporters_write_the_properties_too(self):
         addon_utils.enable("io_scene_fbx")

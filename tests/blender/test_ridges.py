@@ -37,7 +37,8 @@ class Ridges(installed.Case):
             at.uv = at.uv[0] + 0.0131, at.uv[1] + 0.0271
         if smooth:
             self.object.data.polygons.foreach_set("use_smooth", [True] * len(self.object.data.polygons))
-        self.tag.write(self.material, {"spatial_frequency": [1.0 / PITCH, 0.7 / PITCH], "amplitude": 1e-4, "stiffness": 400.0, **tag})
+        whole = {"spatial_frequency": [1.0 / PITCH, 0.7 / PITCH], "amplitude": 1e-4, "stiffness": 400.0, **tag}
+        self.tag.write(self.material, whole)
         bpy.context.view_layer.update()
 
     def shown(self):
@@ -97,7 +98,8 @@ class Ridges(installed.Case):
                 off = felt[:, 1 + k] / part.step
                 error = np.abs(off - np.round(off)) * part.step / self.tag.frequencies(part.tag)[k]
                 worst, count = max(worst, error.max()), count + len(error)
-        print(f"overlay: {self.id().rsplit('felt_', 1)[-1]}: {count} points, largest difference{' if curved' * smooth}: {worst * 1e9:.1f} nm")
+        where = self.id().rsplit("felt_", 1)[-1]
+        print(f"overlay: {where}: {count} points, largest difference{' if curved' * smooth}: {worst * 1e9:.1f} nm")
         self.assertLess(worst, NEAR_SMOOTH if smooth else NEAR)
 
     def test_lines_are_where_it_is_felt_on_a_plane(self):
@@ -109,7 +111,8 @@ class Ridges(installed.Case):
         self.check("uvs")
 
     def test_lines_are_where_it_is_felt_on_a_smooth_torus(self):
-        self.make(bpy.ops.mesh.primitive_torus_add, {}, major_radius=0.04, minor_radius=0.015, smooth=True, scale=(1.0, 0.8, 1.5))
+        self.make(bpy.ops.mesh.primitive_torus_add, {}, major_radius=0.04, minor_radius=0.015, smooth=True,
+                  scale=(1.0, 0.8, 1.5))
         self.check("uvs", smooth=True)
 
     def test_lines_are_where_it_is_felt_on_a_turned(self):

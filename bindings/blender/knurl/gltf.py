@@ -9,7 +9,7 @@ def _export(made, owner, settings):
     extras = {key: value for key, value in (made.extras or {}).items() if key != "knurl" and not key.startswith(tag.PREFIX)}
     found = tag.read(owner)
     if found:
-        if "axis" in found and not settings.get("gltf_yup", True):
+        if any(tag.axis(found)) and not settings.get("gltf_yup", True):
             found["axis"] = tag.turned(found["axis"], False)
         extras["knurl"] = found
     made.extras = extras or None

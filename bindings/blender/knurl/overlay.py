@@ -58,7 +58,8 @@ def parts_of(mesh, materials, tags, linear):
     for i, merged in enumerate(tags):
         own = index == i
         if any(tag.frequencies(merged)) and own.any():
-            felt = ridges.measure(corners[own], None if uvs is None else uvs[own], merged, linear)
+            felt = ridges.measure(corners[own], None if uvs is None else uvs[own], linear, tag.axis(merged),
+                                  merged.get("coordinates") == "box", tag.number(merged, "orientation", 0.0))
             *segments, step = ridges.lines(corners[own], felt, tag.frequencies(merged))
             yield Part(materials[i], merged, felt, segments, step)
 

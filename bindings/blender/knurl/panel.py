@@ -1,5 +1,6 @@
 """Panels of materials and objects. SPDX-License-Identifier: MIT"""
 import bpy
+from bpy.app.translations import pgettext_iface as translated
 from bpy.props import BoolProperty, StringProperty
 
 from . import overlay, tag
@@ -11,44 +12,45 @@ STRETCH_MAX = 2.0  # an octave: knurl inspect warns beyond it
 def _stretched(part):
     """A sentence on a part whose uvs stretch, or None."""
     fs = tag.frequencies(part.tag)
-    turned = part.tag.get("orientation", 0.0) != 0.0
+    turned = tag.number(part.tag, "orientation", 0.0) != 0.0
     for k in (0, 1):
         felt, (least, most) = max(fs) if turned else fs[k], part.felt.stretch[k]
         if felt > 0.0 and (most > STRETCH_MAX or least * STRETCH_MAX < 1.0):
-            return (f"UVs stretch: ridges are {1000.0 / (most * felt):.2g} to {1000.0 / (least * felt):.2g} mm apart, "
-                    f"uneven on {100.0 * part.felt.uneven:.2g} % of the area")
+            words = translated("UVs stretch: ridges are {least:.2g} to {most:.2g} mm apart, uneven on {share:.2g} % of the area")
+            return words.format(least=1000.0 / (most * felt), most=1000.0 / (least * felt), share=100.0 * part.felt.uneven)
     return None
 
 
 def _by_shape(owner, mesh, shown):
     """What the mesh does to the ridges. shown: see overlay.shown_of()."""
     if shown.too_many:
-        yield f"Ridges are not drawn: {shown.too_many} triangles, more than {overlay.TRIANGLES_MAX}"
+        yield translated("Ridges are not drawn: {count} triangles, more than {most}").format(
+            count=shown.too_many, most=overlay.TRIANGLES_MAX)
     for part in shown.parts:
         if owner not in (part.material, None) and isinstance(owner, bpy.types.Material):
             continue
         if part.felt.source == "box" and part.tag.get("coordinates") != "box":
-            yield ("UVs have no area: ridges follow positions; unwrap, or give an axis" if mesh.uv_layers else
-                   "No UVs: ridges follow positions; give an axis to choose their direction")
+            yield translated("UVs have no area: ridges follow positions; unwrap, or give an axis" if mesh.uv_layers else
+                             "No UVs: ridges follow positions; give an axis to choose their direction")
         sentence = _stretched(part) if part.felt.source == "uvs" and part.tag.get("method") != "S2" else None
         if sentence:
             yield sentence
         if part.step > 1:
-            yield f"Many ridges: one of {part.step} is drawn"
+            yield translated("Many ridges: one of {step} is drawn").format(step=part.step)
 
 
 def warnings_of(owner, shown_object=None, depsgraph=None):
     """Sentences for the panel. shown_object: the mesh object shown with the material, or None."""
-    found = []
-    if any(0.0 < 1.0 / f < 2.0 * ENCODER for f in tag.frequencies(tag.read(owner) or {}) if f > 0.0):
-        found.append("Ridges finer than two of a Touch's counts (0.11 mm)")
+    found = list(tag.faults(tag.read(owner) or {}))
+    if any(f * 2.0 * ENCODER > 1.0 for f in tag.frequencies(tag.read(owner) or {})):
+        found.append(translated("Ridges finer than two of a Touch's counts (0.11 mm)"))
     if owner.knurl_hardness > 800.0:
-        found.append("Stiffer than a Touch can hold (800 N/m)")
+        found.append(translated("Stiffer than a Touch can hold (800 N/m)"))
     shown = shown_object and overlay.shown_of(shown_object, depsgraph)
     if shown:
         found += _by_shape(owner, shown_object.data, shown)
         if any(modifier.show_viewport for modifier in shown_object.modifiers):
-            found.append("Modifiers are felt if the export applies them")
+            found.append(translated("Modifiers are felt if the export applies them"))
     return list(dict.fromkeys(found))
 
 

@@ -25,7 +25,7 @@ _OVERRIDABLE = {"LIBRARY_OVERRIDABLE"}
 
 def _number(key, name, description, default=0.0, **range_of):
     """A property for one key of the tag."""
-    return FloatProperty(name=name, description=description, get=lambda self: float(tag.get(self, key, default)),
+    return FloatProperty(name=name, description=description, get=lambda self: tag.number(tag.read(self) or {}, key, default),
                          set=lambda self, value: tag.put(self, key, _typed(value)), update=redraw, override=_OVERRIDABLE,
                          **range_of)
 
@@ -64,7 +64,7 @@ PROPERTIES = {
     "knurl_ridges_across": _ridges(1, "Across (mm)", "From ridge to ridge along v, which makes a grid; 0: no ridges"),
     "knurl_depth": FloatProperty(
         name="Depth (mm)", description="From the bottom of a groove to the top of a ridge", min=0.0, soft_max=2.0,
-        precision=3, step=1, get=lambda self: 2000.0 * float(tag.get(self, "amplitude", 0.0)),
+        precision=3, step=1, get=lambda self: 2000.0 * tag.number(tag.read(self) or {}, "amplitude", 0.0),
         set=lambda self, value: tag.put(self, "amplitude", _typed(value) / 2000.0), override=_OVERRIDABLE),
     "knurl_hardness": _number("stiffness", "Stiffness (N/m)", "Of the wall; a Touch holds some 800 N/m", 400.0, min=0.001,
                               soft_min=50.0, soft_max=1000.0),
@@ -73,7 +73,7 @@ PROPERTIES = {
     "knurl_turn": _number("orientation", "Direction", "Turns the ridges about the normal", subtype="ANGLE"),
     "knurl_across": FloatVectorProperty(
         name="Axis", description="Direction across the ridges in the object's space; 0, 0, 0: by its UVs", size=3,
-        subtype="XYZ", get=lambda self: tag.turned(tag.get(self, "axis", (0.0, 0.0, 0.0)), False),
+        subtype="XYZ", get=lambda self: tag.turned(tag.axis(tag.read(self) or {}), False),
         set=lambda self, value: tag.put(self, "axis", tag.turned(map(_typed, value), True) if any(value) else None),
         update=redraw, override=_OVERRIDABLE),
     "knurl_layout": _choice("coordinates", "Coordinates", "How ridges are placed", [

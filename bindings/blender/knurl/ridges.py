@@ -90,21 +90,21 @@ def _by_uvs(corners, normal, uvs):
     return Felt(felt, "uvs", tuple((r.min(), r.max()) for r in ratios), 1.0 - area[mapped][even].sum() / area.sum())
 
 
-def measure(corners, uvs, tag, linear):
-    """Felt coordinates. corners: (n, 3, 3), the object's space; uvs: (n, 3, 2), Blender's, or None; tag: of tag.merged();
-    linear: 3x3 of the object's world matrix. Their rows are for `corners` as given; those of no area are NaN."""
+def measure(corners, uvs, linear, axis=(0.0, 0.0, 0.0), is_box=False, turn=0.0):
+    """Felt coordinates. corners: (n, 3, 3), the object's space; uvs: (n, 3, 2), Blender's, or None; linear: 3x3 of the object's
+    world matrix; axis: glTF's, 0: none; turn: the orientation, rad. The coordinates' rows are those of `corners`; NaN: no
+    area."""
     rest = _rest(TO_GLTF @ linear @ TO_GLTF.T)
     order = slice(None, None, -1 if np.linalg.det(rest) < 0.0 else 1)  # the loader turns a mirrored mesh's triangles over
     placed = (corners @ (rest @ TO_GLTF).T)[:, order]
     edges = placed[:, [1, 2, 2]] - placed[:, [0, 0, 1]]
     normal = np.cross(edges[:, 0], edges[:, 1])
     felt = None
-    if any(tag.get("axis", ())):
-        felt = Felt(_by_axis(placed, _unit(normal), _unit(rest @ np.array(tag["axis"], float))), "axis")
-    elif uvs is not None and tag.get("coordinates") != "box":
+    if any(axis):
+        felt = Felt(_by_axis(placed, _unit(normal), _unit(rest @ np.array(axis, float))), "axis")
+    elif uvs is not None and not is_box:
         felt = _by_uvs(placed, normal, uvs[:, order] * (1.0, -1.0) + (0.0, 1.0))
     felt = felt or Felt(_by_box(placed, normal), "box")
-    turn = float(tag.get("orientation", 0.0))
     if turn != 0.0:
         felt.coordinates = felt.coordinates @ np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
     felt.coordinates[_dot(normal, normal) <= 1e-12 * _dot(edges, edges).max(axis=1) ** 2] = np.nan  # thinner than a float

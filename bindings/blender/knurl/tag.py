@@ -1,6 +1,7 @@
 """A tag as custom properties (docs/tagging.md). It is stored nowhere else, so it works with undo, linked libraries and other
 exporters, such as FBX. SPDX-License-Identifier: MIT"""
 import json
+import math
 import os
 
 PREFIX = "knurl_"
@@ -65,10 +66,45 @@ def merged(*owners):
     return found
 
 
+def _is_number(value):
+    return isinstance(value, (int, float)) and math.isfinite(value)
+
+
+def number(tag, key, default):
+    """A key's number; the default also for what was typed by hand and is none, of which faults() tells."""
+    value = tag.get(key, default)
+    return float(value) if _is_number(value) else default
+
+
 def frequencies(tag):
     """Cycles per metre along x and y."""
     value = tag.get("spatial_frequency", 0.0)
-    return list(value) if isinstance(value, list) else [float(value), 0.0]
+    both = (value if isinstance(value, list) else [value]) + [0.0]
+    return [float(each) if _is_number(each) and each > 0.0 else 0.0 for each in both[:2]]
+
+
+def axis(tag):
+    """In glTF's axes; zeros: none."""
+    value = tag.get("axis")
+    return list(value) if isinstance(value, list) and len(value) == 3 and all(map(_is_number, value)) else [0.0, 0.0, 0.0]
+
+
+def faults(tag):
+    """A sentence for each key that the loader would refuse: custom properties can be typed by hand."""
+    for key, value in tag.items():
+        if key not in ("version", *KEYS):
+            yield f"knurl_{key}: unknown"
+        elif key == "spatial_frequency":
+            both = value if isinstance(value, list) else [value]
+            if len(both) > 2 or not both or not all(_is_number(each) and each >= 0.0 for each in both):
+                yield f"knurl_{key}: expected one or two numbers of 0 or more, found {value!r:.40}"
+        elif key == "axis":
+            if not any(axis(tag)):
+                yield f"knurl_{key}: expected three numbers that are not all 0, found {value!r:.40}"
+        elif key in ("amplitude", "stiffness", "damping", "friction", "orientation"):
+            least = {"orientation": "", "stiffness": " above 0"}.get(key, " of 0 or more")
+            if not _is_number(value) or (least and value < 0.0) or (key == "stiffness" and value == 0.0):
+                yield f"knurl_{key}: expected a number{least}, found {value!r:.40}"
 
 
 def turned(axis, to_gltf):
