@@ -6,9 +6,15 @@
 #define PI      3.14159265358979323846
 #define TOUCH_K 533.0 /* N/m, rounded down: 0.8 (0.5 + 0.5 N s/m)/(1.5 ms) */
 
+static knurl_scene *scene_with_hip(const knurl_hip_desc *hip) {
+    knurl_scene *scene = empty_scene(1);
+    assert_int_equal(knurl_scene_configure_hip(scene, 0, hip), KNURL_OK);
+    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
+    return scene;
+}
+
 /* A committed scene without surfaces, its HIP a Touch's but for those protections. */
 static knurl_scene *touch_scene(uint32_t without, double scale) {
-    knurl_scene *scene = empty_scene(1);
     knurl_hip_desc hip;
     knurl_workspace workspace;
     knurl_hip_desc_init(&hip, sizeof hip);
@@ -17,9 +23,7 @@ static knurl_scene *touch_scene(uint32_t without, double scale) {
     hip.resolution = 0.0;
     hip.protections = KNURL_PROTECT_ALL & ~without;
     hip.workspace = &workspace;
-    assert_int_equal(knurl_scene_configure_hip(scene, 0, &hip), KNURL_OK);
-    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
-    return scene;
+    return scene_with_hip(&hip);
 }
 
 /* The formulas of effect.h, written out by components along the unit axis u. */
@@ -156,7 +160,7 @@ TEST(an_effect_of_another_kind_is_at_its_anchor_at_once) {
     set(scene, &effect, 1, 0.02);
     CHECK_CLOSE(tick_at(scene, 0.0, 0.0, 0.0).force[0], 1.0, AS_ONE);
     effect.anchor[0] = -0.005;
-    set(scene, &effect, 1, 1e-300); /* shorter than a tick: a jump */
+    set(scene, &effect, 1, 5e-324); /* shorter than a tick: a jump */
     CHECK_CLOSE(tick_at(scene, 0.0, 0.0, 0.0).force[0], -1.0, AS_ONE);
 }
 
@@ -229,19 +233,46 @@ TEST(the_limit_is_the_devices_at_every_scale_and_ends_with_its_protection) {
     CHECK_CLOSE(felt_stiffness(raw), 2000.0, 1e-6);
 }
 
-/* The same as 0.03 s times 667 N/m. */
-TEST(together_they_damp_by_at_most_20_newton_seconds_per_metre) {
-    SCOPED_SCENE *scene = touch_scene(KNURL_PROTECT_SLEW, 1.0);
+/* N s/m that are felt of two dampers. */
+static double felt_damping(knurl_scene *scene, double asked) {
     knurl_effect dampers[2] = {effect_of(KNURL_EFFECT_DAMPER), effect_of(KNURL_EFFECT_DAMPER)};
     const double at[3] = {0.0, 0.0, 0.0}, v[3] = {0.01, 0.0, 0.0};
-    dampers[0].damping = dampers[1].damping = 9.99;
+    dampers[0].damping = dampers[1].damping = 0.5 * asked;
     set(scene, dampers, 2, 0.0);
-    CHECK_CLOSE(tick_moving(scene, at, v).force[0], -0.1998, 1e-12);
+    return -tick_moving(scene, at, v).force[0] / 0.01;
+}
+
+TEST(together_they_damp_by_at_most_20_newton_seconds_per_metre) {
+    SCOPED_SCENE *scene = touch_scene(KNURL_PROTECT_SLEW, 1.0);
+    CHECK_CLOSE(felt_damping(scene, 19.99), 19.99, 1e-9);
     CHECK_SAME(counted(scene), 0.0);
-    dampers[0].damping = 1000.0;
-    set(scene, dampers, 2, 0.0);
-    CHECK_CLOSE(tick_moving(scene, at, v).force[0], -0.2, 1e-12);
+    CHECK_CLOSE(felt_damping(scene, 2000.0), 20.0, 1e-9);
     CHECK_SAME(counted(scene), 1.0);
+}
+
+TEST(a_faster_device_is_not_damped_more_and_a_late_one_less) {
+    knurl_hip_desc hip;
+    knurl_hip_desc_init(&hip, sizeof hip);
+    hip.protections = KNURL_PROTECT_PASSIVITY;
+    hip.update_rate_hz = 4000.0;
+    SCOPED_SCENE *fast = scene_with_hip(&hip);
+    CHECK_CLOSE(felt_damping(fast, 2000.0), 20.0, 1e-9);
+    hip.update_rate_hz = 1000.0;
+    hip.delay = 4.0;
+    SCOPED_SCENE *late = scene_with_hip(&hip);
+    CHECK_CLOSE(felt_damping(late, 2000.0), 0.03 * 1.0 / 4.5e-3, 1e-9);
+}
+
+TEST(the_makers_stiffness_is_a_limit_too) {
+    knurl_hip_desc hip;
+    knurl_hip_desc_init(&hip, sizeof hip);
+    hip.protections = KNURL_PROTECT_PASSIVITY;
+    hip.update_rate_hz = 4000.0; /* stable to 2133 N/m */
+    SCOPED_SCENE *scene = scene_with_hip(&hip);
+    knurl_effect effect = effect_of(KNURL_EFFECT_SPRING);
+    effect.stiffness = 5000.0;
+    set(scene, &effect, 1, 0.0);
+    CHECK_CLOSE(felt_stiffness(scene), 1020.0, 1e-6);
 }
 
 TEST(no_effect_is_felt_while_paused_absent_attenuated_or_without_a_number) {
