@@ -1,6 +1,6 @@
 /* The passivity controller on thousands of walls and gratings in the laboratory: counts runaways without it and those
- * that it stops, and calm runs and those that it changes. The figures in samples/study/stability.md and docs/safety.md are
- * from these tests with KNURL_LONG in the environment, which runs every cell. SPDX-License-Identifier: MIT */
+ * that it stops, and calm runs and those that it changes. The figures in samples/study/stability.md and docs/safety.md
+ * are from these tests with KNURL_LONG in the environment, which runs every cell. SPDX-License-Identifier: MIT */
 #include "protection.h"
 
 #include <stdlib.h>
