@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+using System;
 using System.Collections.Generic;
 
 namespace Knurl
@@ -14,14 +15,28 @@ namespace Knurl
         /// key. Or the native library is missing.</exception>
         public static unsafe IReadOnlyList<KnurlTag> Read(string path)
         {
+            return Load(path, null);
+        }
+
+        /// <summary>The same of a file's content. name: for messages.</summary>
+        internal static IReadOnlyList<KnurlTag> ReadContent(byte[] content, string name)
+        {
+            return Load(name, content);
+        }
+
+        static unsafe IReadOnlyList<KnurlTag> Load(string path, byte[] content)
+        {
             Library.Demand();
             knurl_scene* scene = null;
             KnurlException.Check(NativeMethods.knurl_scene_create(null, &scene));
             try
             {
-                fixed (byte* file = Utf8.Bytes(path, "path"))
+                fixed (byte* file = Utf8.Bytes(path, "path"), bytes = content)
                 {
-                    KnurlException.Check(NativeMethods.knurl_gltf_load_file(scene, file, null, null));
+                    KnurlException.Check(content == null
+                        ? NativeMethods.knurl_gltf_load_file(scene, file, null, null)
+                        : NativeMethods.knurl_gltf_load_memory(scene, (IntPtr)bytes, (ulong)content.Length, file, null,
+                            null, null));
                 }
                 return ReadAll(scene);
             }

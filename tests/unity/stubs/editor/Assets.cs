@@ -200,9 +200,20 @@ namespace UnityEditor
         public bool isReadable { get; set; }
     }
 
+    namespace AssetImporters
+    {
+        /// Remembers the objects that became part of the imported file, by their identifiers.
+        public class AssetImportContext
+        {
+            public readonly Dictionary<string, UnityEngine.Object> Added = new Dictionary<string, UnityEngine.Object>();
+            public void AddObjectToAsset(string identifier, UnityEngine.Object obj) { Added.Add(identifier, obj); }
+        }
+    }
+
     /// A test makes one and calls its methods.
     public class AssetPostprocessor
     {
+        public AssetImporters.AssetImportContext context { get; set; }
         public string assetPath { get; set; }
         public AssetImporter assetImporter { get; set; }
         public virtual uint GetVersion() { return 0; }
