@@ -80,12 +80,40 @@ func play() -> void:
 	await end("own_device")
 	press("ui_right", false)
 
+	await show_recipe("trigger")
+	await by_hand()
+	device.move_hip(Vector3(0, 0, 0.003))
+	await says("^0 shots. Pull towards you: 3.0 mm", "the trigger is pulled")
+	checks.close(device.force.z, -0.9, 0.1, "its spring, N")
+	device.move_hip(Vector3(0, 0, 0.007))
+	await says("^1 shots", "it breaks")
+	device.move_hip(Vector3.ZERO)
+	await says("^1 shots.*: 0.0 mm", "it is let go")
+	device.move_hip(Vector3(0, 0, 0.007))
+	await says("^2 shots", "and breaks again")
+	await end("trigger")
+
+	await show_recipe("slider")
+	await by_hand()
+	device.move_hip(Vector3(0.0325, 0, 0))
+	await says("^Setting 3, 0.[23]", "a quarter of a notch off, it pulls back")
+	await end("slider")
+
 	await show_recipe("vr_hand")
 	var hand: Node3D = stage.get_node("Controller")
 	create_tween().tween_property(hand, "position:x", 0.04, 2.0)
 	await says("^[1-9][0-9]* Hz at [1-9][0-9]* %", "the motor plays the ridges")
 	await end("vr_hand")
 	checks.finish(self)
+
+
+## The test moves the HIP.
+func by_hand() -> void:
+	device.stop()
+	device.device = "mouse"
+	device.start()
+	device.move_hip(Vector3.ZERO)
+	await create_timer(0.3).timeout
 
 
 func show_recipe(name: String) -> void:
