@@ -5,7 +5,7 @@ import { METHODS } from "./rows.js";
 import { amplitudes, falseTones, findSteady, isRidges } from "./spectrum.js";
 
 const TOP_HZ = 520;
-const SHOWN_S = 1.2; // of history
+const SHOWN_S = 1.5; // of history: a whole stroke of the hand is in it
 
 const cards = [...document.querySelectorAll("#methods label")].map((label) =>
   ({ canvas: label.querySelector("canvas"), text: label.querySelector("output") }));

@@ -57,10 +57,11 @@ export function falseTones(lines, rate, frequency) {
   return all > 0 ? far / all : 1; // a constant is no vibration
 }
 
-// The newest part of the rows {frequency, way} at a steady speed, in one direction: {from, count: a power of two}, or
-// null.
+// The longest part of the rows {frequency, way} at a steady speed, in one direction, or the newest of equally long ones:
+// {from, count: a power of two}, or null.
 export function findSteady(rows, rate) {
   const [least, most] = [SHORTEST_S * rate, LONGEST_S * rate];
+  let found = null;
   for (let end = rows.length; end > least;) {
     const { frequency, way } = rows[end - 1];
     let from = end - 1;
@@ -68,11 +69,11 @@ export function findSteady(rows, rate) {
       Math.abs(rows[from - 1].frequency / frequency - 1) < 0.02) {
       from--;
     }
-    if (end - from >= least) {
-      const count = 2 ** Math.floor(Math.log2(end - from));
-      return { from: end - count, count };
+    const count = 2 ** Math.floor(Math.log2(end - from));
+    if (end - from >= least && count > (found?.count ?? 0)) {
+      found = { from: end - count, count };
     }
     end = from;
   }
-  return null;
+  return found;
 }

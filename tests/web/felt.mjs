@@ -203,6 +203,7 @@ export const cases = {
     const row = (frequency, way) => ({ frequency, way });
     const turns = [...Array(300).fill(row(100, 1)), ...Array(300).fill(row(100, -1)), ...Array(50).fill(row(100, 1))];
     assert.deepEqual(findSteady(turns, 1000), { from: 344, count: 256 });
+    assert.deepEqual(findSteady([...Array(600).fill(row(100, 1)), ...Array(200).fill(row(100, -1))], 1000), { from: 88, count: 512 });
     assert.equal(findSteady(Array.from({ length: 600 }, (_, i) => row(100 + i, 1)), 1000), null);
     assert.equal(findSteady(Array(600).fill(row(0, 0)), 1000), null);
   },
