@@ -205,7 +205,7 @@ soak() {
     local name failed=()
     for name in stress stress_loops device_load falcon_fuzz rawhid_fuzz contact_closest contact_walks \
         stability_protection_grids weigh rooms smooth_rooms failing_scene failing_gltf failing_device failing_session conform \
-        conform_drivers; do
+        conform_drivers verify; do
         echo "run: soak: $name"
         if ! with_progress "running $name" "build/soak-$name.log" "build/release/tests/test_$name"; then
             grep -E 'ERROR|LINE|FAILED' "build/soak-$name.log" >&2 || true
