@@ -205,13 +205,14 @@ soak() {
     local name failed=()
     for name in stress stress_loops device_load falcon_fuzz rawhid_fuzz contact_closest contact_walks \
         stability_protection_grids weigh rooms smooth_rooms failing_scene failing_gltf failing_device failing_session conform \
-        conform_drivers verify; do
+        conform_drivers verify ridges; do
         echo "run: soak: $name"
         if ! with_progress "running $name" "build/soak-$name.log" "build/release/tests/test_$name"; then
             grep -E 'ERROR|LINE|FAILED' "build/soak-$name.log" >&2 || true
             failed+=("$name")
         fi
     done
+    tests/tool/ridges_corpus.py build/release/knurl build/ridges || failed+=(ridges_corpus)
     same_numbers || failed+=(same_numbers)
     test_elsewhere || failed+=('macOS and arm64')
     soak_blender || failed+=(blender)
@@ -248,7 +249,7 @@ fuzz() {
     [[ $minutes =~ ^[0-9]+$ && $minutes -ge 1 ]] || { echo "run: fuzz: expected minutes, found '$minutes'" >&2; exit 2; }
     need_packages "${BUILD_PACKAGES[@]}" "${FUZZ_PACKAGES[@]}"
     build fuzz fuzzers
-    names=$(sed -n 's/^knurl_fuzzer(\([a-z_]*\) .*/\1/p' tests/fuzz/CMakeLists.txt)
+    names=$(sed -n 's/^ *knurl_fuzzer(\([a-z_]*\) .*/\1/p' tests/fuzz/CMakeLists.txt)
     local seconds=$((minutes * 60 / $(wc -w <<<"$names")))
     echo "run: fuzz: each target for $seconds s"
     export -f fuzz_target

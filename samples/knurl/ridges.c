@@ -37,45 +37,25 @@ static double dot(const double a[2], const double b[2]) {
     return a[0] * b[0] + a[1] * b[1];
 }
 
-/* The whole multiples of one or two fundamentals (b may be null) that are nearest to a frequency. 0 if they are not
- * within a bin of it. */
-static int find_multiples(const lattice *l, const double *a, const double *b, const double f[2], double times[2]) {
-    if (b) {
-        const double area = cross(a, b);
-        times[0] = round(cross(f, b) / area);
-        times[1] = round(cross(a, f) / area);
-    } else {
-        times[0] = round(dot(f, a) / dot(a, a));
-        times[1] = 0.0;
-    }
-    const double off_x = f[0] - times[0] * a[0] - (b ? times[1] * b[0] : 0.0);
-    const double off_y = f[1] - times[0] * a[1] - (b ? times[1] * b[1] : 0.0);
-    const double order = fmax(fabs(times[0]), fabs(times[1]));
-    const double spacing = hypot(a[0] / l->bin[0], a[1] / l->bin[1]);
-    const double room = fmin(0.3 + 0.1 * order, 0.2 * spacing); /* bins: the fundamental's error is multiplied */
-    return order > 0.0 && order <= HARMONIC_MAX && hypot(off_x / l->bin[0], off_y / l->bin[1]) <= room;
+/* The whole multiple of a fundamental that is nearest to a frequency; 0 if it is not near. */
+static double find_multiple(const lattice *l, const double fundamental[2], const double f[2]) {
+    const double times = round(dot(f, fundamental) / dot(fundamental, fundamental));
+    const double off_x = f[0] - times * fundamental[0], off_y = f[1] - times * fundamental[1];
+    const double spacing = hypot(fundamental[0] / l->bin[0], fundamental[1] / l->bin[1]);
+    const double room = fmin(0.3 + 0.1 * fabs(times), 0.2 * spacing); /* bins: the fundamental's error is multiplied */
+    return fabs(times) <= HARMONIC_MAX && hypot(off_x / l->bin[0], off_y / l->bin[1]) <= room ? times : 0.0;
 }
 
-/* The peaks' power that the fundamentals explain. */
-static double explain(const lattice *l, const double *a, const double *b) {
-    double power = 0.0, times[2];
-    for (int i = 0; i < l->peak_count; i++) {
-        power += find_multiples(l, a, b, l->peaks[i].frequency, times) ? l->peaks[i].power : 0.0;
-    }
-    return power;
-}
-
-/* The power that a fundamental explains alone. One without a peak needs two low harmonics. */
-static double explain_alone(const lattice *l, int vector) {
+/* The peaks' power that a fundamental explains. One without a peak of its own needs two low harmonics. */
+static double explain(const lattice *l, int vector) {
     int low = 0;
-    double times[2];
+    double power = 0.0;
     for (int i = 0; i < l->peak_count; i++) {
-        low +=
-            find_multiples(l, l->vectors[vector], NULL, l->peaks[i].frequency, times) && fabs(times[0]) <= ABSENT_MAX;
+        const double times = find_multiple(l, l->vectors[vector], l->peaks[i].frequency);
+        power += times != 0.0 ? l->peaks[i].power : 0.0;
+        low += times != 0.0 && fabs(times) <= ABSENT_MAX;
     }
-    return vector < l->peak_count ? explain(l, l->vectors[vector], NULL)
-           : low >= 2             ? explain(l, l->vectors[vector], NULL) / ABSENT_GAIN
-                                  : 0.0;
+    return vector < l->peak_count ? power : low >= 2 ? power / ABSENT_GAIN : 0.0;
 }
 
 /* Peaks, and the differences between two, which hold a fundamental that has no peak of its own. */
@@ -94,47 +74,24 @@ static void collect_vectors(lattice *l) {
     }
 }
 
-/* The longest vector that explains nearly as much as the best; -1 if there is none. */
-static int find_first(const lattice *l) {
-    double best = 0.0, longest = 0.0;
-    int found = -1;
-    for (int i = 0; i < l->vector_count; i++) {
-        best = fmax(best, explain_alone(l, i));
-    }
-    for (int i = 0; i < l->vector_count; i++) {
-        const double length =
-            dot(l->vectors[i], l->vectors[i]) * (i < l->peak_count ? 1.02 : 1.0); /* its own is exact */
-        if (explain_alone(l, i) >= SUPPORT * best && length > longest) {
-            longest = length;
-            found = i;
-        }
-    }
-    return found;
-}
-
 static int is_parallel(const double a[2], const double b[2]) {
     return fabs(cross(a, b)) < PARALLEL * sqrt(dot(a, a) * dot(b, b));
 }
 
-/* The vector that explains most of the other peaks together with the first; of those that explain nearly as much, the
- * one with the largest cell, and of those the one with the most power on its own line. */
-static int find_second(const lattice *l, const double first[2]) {
-    double best = 0.0, best_merit = 0.0;
+/* The longest vector that explains nearly as much as the best, and more than `least`; -1 if there is none. first: the
+ * axis that it must not be along, or null. */
+static int find_axis(const lattice *l, const double *first, double least) {
+    double best = least, longest = 0.0;
     int found = -1;
-    const double alone = explain(l, first, NULL);
     for (int pass = 0; pass < 2; pass++) {
         for (int i = 0; i < l->vector_count; i++) {
             const double *v = l->vectors[i];
-            const double own = explain_alone(l, i);
-            if (is_parallel(first, v) || own < SECOND_MIN * alone) {
-                continue;
-            }
-            const double power = explain(l, first, v) - alone;
-            const double merit = fabs(cross(first, v)) * (1.0 + own / alone);
+            const double power = first && is_parallel(first, v) ? 0.0 : explain(l, i);
+            const double length = dot(v, v) * (i < l->peak_count ? 1.02 : 1.0); /* its own is exact */
             if (pass == 0) {
                 best = fmax(best, power);
-            } else if (power >= SUPPORT * best && merit > best_merit) {
-                best_merit = merit;
+            } else if (power > least && power >= SUPPORT * best && length > longest) {
+                longest = length;
                 found = i;
             }
         }
@@ -159,15 +116,13 @@ static void straighten(const double first[2], double second[2]) {
 
 /* The fundamental from all its harmonics, by least squares: a harmonic's place is as many times as exact. */
 static void refine(const lattice *l, double fundamental[2]) {
-    double sum[2] = {0.0, 0.0}, weight = 0.0, times[2];
+    double sum[2] = {0.0, 0.0}, weight = 0.0;
     for (int i = 0; i < l->peak_count; i++) {
         const double *f = l->peaks[i].frequency;
-        if (find_multiples(l, fundamental, NULL, f, times)) {
-            const double w = fmin(l->peaks[i].height, 1e4);
-            sum[0] += w * times[0] * f[0];
-            sum[1] += w * times[0] * f[1];
-            weight += w * times[0] * times[0];
-        }
+        const double times = find_multiple(l, fundamental, f), w = fmin(l->peaks[i].height, 1e4);
+        sum[0] += w * times * f[0];
+        sum[1] += w * times * f[1];
+        weight += w * times * times;
     }
     if (weight > 0.0) {
         fundamental[0] = sum[0] / weight;
@@ -206,9 +161,9 @@ static double find_share(const spectrum *s, const double fundamental[2]) {
 }
 
 static double evenness_of(const lattice *l, const double fundamental[2]) {
-    double most = 0.0, times[2];
+    double most = 0.0;
     for (int i = 0; i < l->peak_count; i++) {
-        if (find_multiples(l, fundamental, NULL, l->peaks[i].frequency, times)) {
+        if (find_multiple(l, fundamental, l->peaks[i].frequency) != 0.0) {
             most = fmax(most, l->peaks[i].evenness);
         }
     }
@@ -246,10 +201,10 @@ int ridges_find(const field *from, ridges *found) {
     if (l.peak_count > 0) {
         collect_vectors(&l);
     }
-    const int first = find_first(&l);
+    const int first = find_axis(&l, NULL, 0.0);
     if (first >= 0) {
         take_axis(&l, &whole, first, 0, found);
-        const int second = find_second(&l, found->frequency[0]);
+        const int second = find_axis(&l, found->frequency[0], SECOND_MIN * explain(&l, first));
         if (second >= 0) {
             take_axis(&l, &whole, second, 1, found);
         }

@@ -19,10 +19,19 @@ static void remove_again(void *user, const void *data, uint64_t size) {
     EXPECT(knurl_gltf_set_tag(data, size, "fuzz", "materials", 0, NULL, remove_tag, NULL) == KNURL_OK);
 }
 
+static void check_texture(void *user, const knurl_gltf_texture *texture) {
+    (void)user;
+    EXPECT(texture->use && texture->name && (!texture->data) == (texture->problem != NULL));
+    for (uint64_t i = 0; i < texture->size; i += 97) {
+        EXPECT(((const volatile uint8_t *)texture->data)[i] <= 255); /* readable to its end */
+    }
+}
+
 static void set_tag(void *user, const char *array, uint32_t index, const char *name, const char *tag) {
     const edited *file = user;
     EXPECT(array && name);
     (void)tag;
+    (void)knurl_gltf_read_textures(file->data, file->size, "fuzz", NULL, array, index % 4, check_texture, NULL);
     if (strcmp(array, "materials") == 0 && index == 0) {
         (void)knurl_gltf_set_tag(file->data, file->size, "fuzz", array, index, "{\"stiffness\":400}", remove_again,
                                  NULL);
