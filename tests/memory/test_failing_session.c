@@ -102,9 +102,10 @@ static knurl_result call_play(void) {
 
 static knurl_result call_get_sound(void) {
     float samples[32];
+    double rumble[2];
     const knurl_result result = knurl_session_get_sound(session, 48000.0, &sound);
     knurl_sound_fill(sound, samples, 32);
-    return result;
+    return result ? result : knurl_sound_get_rumble(sound, rumble);
 }
 
 /* A frame of a game, with all queries. */
