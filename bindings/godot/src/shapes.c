@@ -30,7 +30,7 @@ static shape **bucket_of(const shape_key *key) {
 shape_key shapes_key(const surface *s, const double rest[9], int slot) {
     shape_key key;
     gd_variant held;
-    memset(&key, 0, sizeof key); /* it is compared as bytes */
+    memset(&key, 0, sizeof key); /* its bytes are hashed */
     const GDExtensionObjectPtr mesh = geometry_mesh(surface_parent(s), &held);
     key.mesh = mesh ? gd.object_get_instance_id(mesh) : 0;
     gd.variant_destroy(&held);
@@ -46,9 +46,18 @@ shape_key shapes_key(const surface *s, const double rest[9], int slot) {
     return key;
 }
 
+static int is_same(const shape_key *a, const shape_key *b) {
+    int same =
+        a->mesh == b->mesh && a->smooth == b->smooth && a->box_coordinates == b->box_coordinates && a->slot == b->slot;
+    for (int i = 0; i < 9; i++) {
+        same = same && a->rest[i] == b->rest[i] && a->axis[i % 3] == b->axis[i % 3];
+    }
+    return same;
+}
+
 shape *shapes_find(const shape_key *key) {
     shape *found = key->mesh ? *bucket_of(key) : NULL;
-    while (found && (found->is_expired || memcmp(&found->key, key, sizeof *key) != 0)) {
+    while (found && (found->is_expired || !is_same(&found->key, key))) {
         found = found->next;
     }
     return found;

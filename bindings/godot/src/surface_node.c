@@ -66,6 +66,7 @@ static knurl_result read_and_put(surface *s, knurl_scene *scene, const knurl_ses
     }
     mesh_describe(&data, &mesh);
     result = result ? result : add_or_replace(scene, desc, id);
+    desc->mesh = NULL;
     mesh_end(&data);
     return result;
 }
