@@ -7,7 +7,8 @@ import sys
 import zipfile
 
 import installed
-from installed import NAME, ZIP, bpy, addon_utils, inspect, json_of
+import numpy
+from installed import KNURL, NAME, ZIP, bpy, addon_utils, inspect, json_of
 
 
 class Extension(installed.Case):
@@ -125,6 +126,44 @@ class Extension(installed.Case):
         self.assertIsNone(feel._look())  # as Blender's timer does
         self.assertEqual(opened, [f"http://127.0.0.1:1/?run,{scene},--view,"])
         self.assertFalse(os.path.exists(folder))
+
+    def _texture(self, grey):
+        """Gives the material a texture, one number a pixel, over the plane's 0.1 m."""
+        image = bpy.data.images.new("cloth", grey.shape[1], grey.shape[0])
+        image.pixels.foreach_set(numpy.repeat(grey[..., None], 4, axis=2).astype(numpy.float32).ravel())
+        image.pack()
+        self.material.use_nodes = True
+        nodes = self.material.node_tree
+        shown = nodes.nodes.new("ShaderNodeTexImage")
+        shown.image = image
+        nodes.links.new(shown.outputs["Color"], nodes.nodes["Principled BSDF"].inputs["Base Color"])
+
+    def test_ridges_are_found_in_a_texture(self):
+        self.addCleanup(os.environ.pop, "KNURL_TOOL", None)
+        os.environ["KNURL_TOOL"] = KNURL
+        self._texture(numpy.tile(0.5 + 0.4 * numpy.sin(2.0 * numpy.pi * numpy.arange(256) * 20.0 / 256.0), (256, 1)))
+        self.material.knurl_grip = 0.5
+        self.assertEqual(bpy.ops.knurl.from_texture(), {"FINISHED"})
+        self.assertAlmostEqual(self.material.knurl_ridges, 5.0, delta=0.02)
+        self.assertEqual((self.material.knurl_ridges_across, self.material.knurl_grip), (0.0, 0.5))
+        self.export()
+        self.assertAlmostEqual(inspect(self.path)[0][0]["material"]["spatial_frequency"][0], 200.0, delta=1.0)
+
+    def test_a_texture_without_a_pattern_changes_nothing(self):
+        self.addCleanup(os.environ.pop, "KNURL_TOOL", None)
+        os.environ["KNURL_TOOL"] = KNURL
+        self._texture(numpy.random.default_rng(1).random((256, 256)))
+        self.assertEqual(bpy.ops.knurl.from_texture(), {"CANCELLED"})
+        self.assertFalse(self.material.knurl_on)
+
+    def test_a_texture_needs_the_tool_and_a_texture(self):
+        self.addCleanup(os.environ.pop, "KNURL_TOOL", None)
+        os.environ["KNURL_TOOL"] = os.path.join(self.folder.name, "no tool")
+        with self.assertRaisesRegex(RuntimeError, "expected the program"):
+            bpy.ops.knurl.from_texture()
+        os.environ["KNURL_TOOL"] = KNURL
+        with self.assertRaisesRegex(RuntimeError, "ridges.*texture"):
+            bpy.ops.knurl.from_texture()
 
     def test_it_can_be_disabled_and_enabled_again(self):
         for _ in range(2):

@@ -21,7 +21,7 @@ class Translations(installed.Case):
         for call in ast.walk(ast.parse(inspect.getsource(panel))):
             if isinstance(call, ast.Call) and getattr(call.func, "id", "") == "translated":
                 shown |= {node.value for node in ast.walk(call.args[0]) if isinstance(node, ast.Constant)}
-        shown |= {"Show Ridges", "Feel", "Copy to Selected", "Everyday Material"}
+        shown |= {"Show Ridges", "Feel", "Copy to Selected", "Everyday Material", "Ridges from Texture"}
         for words in self.languages.values():
             self.assertEqual({word for word in shown - set(words) if word != "Knurl"}, set())
 

@@ -1,5 +1,5 @@
 """Knurl in Blender: ridges on materials and objects, in mm, and in glTF files. SPDX-License-Identifier: MIT"""
-from . import feel, overlay, panel, properties, translations
+from . import feel, overlay, panel, properties, texture, translations
 from .gltf import glTF2ExportUserExtension, glTF2ImportUserExtension  # found by the glTF add-on under these names
 
 bl_info = {  # Blender 3.4 to 4.1; from 4.2 on blender_manifest.toml counts
@@ -14,7 +14,7 @@ bl_info = {  # Blender 3.4 to 4.1; from 4.2 on blender_manifest.toml counts
 
 __all__ = ["glTF2ExportUserExtension", "glTF2ImportUserExtension", "register", "unregister"]
 
-PARTS = (translations, properties, overlay, feel, panel)
+PARTS = (translations, properties, overlay, feel, texture, panel)
 
 
 def register():

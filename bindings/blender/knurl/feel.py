@@ -10,7 +10,18 @@ import time
 import bpy
 
 ADDRESS_WAIT = 10.0  # s until the tool has printed the page's address
+NO_TOOL = "expected the program 'knurl' on the path, or its path in KNURL_TOOL"
 _running = []  # [process, folder, time until which its address is looked for; 0: found]
+
+
+def tool():
+    """The path of Knurl's tool, or None."""
+    return shutil.which(os.environ.get("KNURL_TOOL") or "knurl")
+
+
+def material_of(context):
+    """The panel's material or, in a pinned panel without one, the active object's."""
+    return getattr(context, "material", None) or (context.object and context.object.active_material)
 
 
 def _address(folder):
@@ -52,16 +63,16 @@ class KNURL_OT_feel(bpy.types.Operator):
     bl_label = "Feel"
 
     def execute(self, _context):
-        tool = shutil.which(os.environ.get("KNURL_TOOL") or "knurl")
-        if not tool:
-            self.report({"ERROR"}, "Knurl: expected the program 'knurl' on the path, or its path in KNURL_TOOL")
+        program = tool()
+        if not program:
+            self.report({"ERROR"}, f"Knurl: {NO_TOOL}")
             return {"CANCELLED"}
         folder = tempfile.mkdtemp(prefix="knurl-")
         path = os.path.join(folder, "scene.glb")
         try:
             bpy.ops.export_scene.gltf(filepath=path, export_apply=True)  # with modifiers, as the ridges are drawn
             with open(path + ".log", "wb") as log:
-                process = subprocess.Popen([tool, "run", path, "--view"], stdout=log, stderr=log)  # ends with its page
+                process = subprocess.Popen([program, "run", path, "--view"], stdout=log, stderr=log)  # ends with its page
         except (OSError, RuntimeError) as error:
             shutil.rmtree(folder, ignore_errors=True)
             self.report({"ERROR"}, f"Knurl: {error}")

@@ -3,7 +3,7 @@ import bpy
 from bpy.app.translations import pgettext_iface as translated
 from bpy.props import BoolProperty, StringProperty
 
-from . import overlay, tag
+from . import feel, overlay, tag
 
 ENCODER = 0.055e-3  # m: a 3D Systems Touch's
 STRETCH_MAX = 2.0  # an octave: knurl inspect warns beyond it
@@ -54,10 +54,6 @@ def warnings_of(owner, shown_object=None, depsgraph=None):
     return list(dict.fromkeys(found))
 
 
-def _material_of(context):
-    return getattr(context, "material", None) or (context.object and context.object.active_material)
-
-
 class KNURL_OT_preset(bpy.types.Operator):
     """Takes the tag of an everyday material"""
     bl_idname = "knurl.preset"
@@ -73,7 +69,7 @@ class KNURL_OT_preset(bpy.types.Operator):
 
     def execute(self, context):
         # in the Properties editor of a pinned material there may be no object
-        owner = context.object if self.on_object else _material_of(context)
+        owner = context.object if self.on_object else feel.material_of(context)
         chosen = [m for m in tag.materials() if m["name"] == self.name]
         if owner is None or owner.library or not chosen:
             self.report({"ERROR"}, f"Knurl: expected one of the everyday materials, found '{self.name}'" if not chosen else
@@ -91,7 +87,7 @@ class KNURL_OT_copy(bpy.types.Operator):
     on_object: BoolProperty()
 
     def execute(self, context):
-        source = context.object if self.on_object else _material_of(context)
+        source = context.object if self.on_object else feel.material_of(context)
         others = [each if self.on_object else each.active_material for each in context.selected_objects if each.type == "MESH"]
         others = [each for each in dict.fromkeys(others) if each and each != source]
         editable = [each for each in others if not each.library]
@@ -128,6 +124,8 @@ def _draw(layout, context, owner):
         layout.label(text=sentence, icon="ERROR", translate=False)
     if len(context.selected_objects) > 1:
         layout.operator("knurl.copy", icon="PASTEDOWN").on_object = isinstance(owner, bpy.types.Object)
+    if isinstance(owner, bpy.types.Material):
+        layout.operator("knurl.from_texture", icon="TEXTURE")
     layout.operator("knurl.feel", icon="PLAY")
 
 

@@ -33,6 +33,7 @@ GERMAN = {
     "Draws the crests in the 3D view, where they are felt": "Zeichnet die Kämme in die 3D-Ansicht, wo sie gefühlt werden",
     "Everyday Material": "Alltägliches Material",
     "Copy to Selected": "Auf Ausgewählte kopieren",
+    "Ridges from Texture": "Rillen aus Textur",
     "Feel": "Fühlen",
     "Ridges finer than two of a Touch's counts (0.11 mm)": "Rillen feiner als zwei Schritte eines Touch (0,11 mm)",
     "Stiffer than a Touch can hold (800 N/m)": "Steifer, als ein Touch halten kann (800 N/m)",
