@@ -1,4 +1,5 @@
 """Effects. SPDX-License-Identifier: MIT"""
+import sys
 import unittest
 
 import numpy as np
@@ -69,4 +70,4 @@ class Effects(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    unittest.main(argv=sys.argv[:1])
