@@ -51,9 +51,9 @@ namespace Knurl.Cases
         internal static void Postprocess(string[] imported, string[] moved = null, string[] movedFrom = null)
         {
             string[] none = new string[0];
-            foreach (Type type in Types.Where(type => typeof(AssetPostprocessor).IsAssignableFrom(type)))
+            foreach (MethodInfo method in Types.Where(type => typeof(AssetPostprocessor).IsAssignableFrom(type))
+                .Select(type => type.GetMethod("OnPostprocessAllAssets", Any)).Where(method => method != null))
             {
-                MethodInfo method = type.GetMethod("OnPostprocessAllAssets", Any);
                 method.Invoke(null, new object[] { imported, none, moved ?? none, movedFrom ?? none });
             }
         }
