@@ -44,7 +44,7 @@ function isPacked(bytes) {
 export class Files {
   // opened(): after a model has been loaded.
   constructor(simulation, opened) {
-    Object.assign(this, { simulation, opened });
+    Object.assign(this, { simulation, opened, surveys: 0 });
     $("model").addEventListener("change", () => this.openDemo($("model").value).then(() => this.opened(null)));
     $("give").addEventListener("click", () => this.give({ node: Number($("part").value), surface: -1 }));
     $("tag").addEventListener("click", () => this.saveTagged());
@@ -74,12 +74,18 @@ export class Files {
     return true;
   }
 
-  // Finds out where the ridges are, while the model can already be stroked.
+  // Finds the places of the ridges, while the model can already be stroked. A newer survey ends it.
   async survey(bytes, name, isOurs) {
+    const number = ++this.surveys;
     const { error } = await this.simulation.ask("survey", { bytes, name });
-    if (!error) {
+    if (!error && number === this.surveys) {
       const ask = async (points, depth) => (await this.simulation.ask("coordinates", { points, depth })).found;
       await scene.view.findRidges(ask, isOurs);
+    }
+    if (number !== this.surveys) {
+      return; // the worker has the newer one's scene
+    }
+    if (!error) {
       scene.view.setRidges(scene.surfaces);
       this.listParts();
     }

@@ -18,7 +18,7 @@ export class Pointer {
     ["pointerup", "pointercancel"].forEach((end) => canvas.addEventListener(end, (event) => this.end(event)));
     canvas.addEventListener("blur", () => this.lift());
     canvas.addEventListener("keydown", (event) => this.key(event));
-    canvas.addEventListener("keyup", (event) => this.held.delete(event.key) && this.hold(false));
+    canvas.addEventListener("keyup", (event) => this.held.delete(event.key) && surface() && this.hold(false));
   }
 
   begin(event) {
