@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The everyday materials of assets/materials.json for all that offer them: the tool, the docs, Godot, Unity and the page.
+"""The everyday materials of assets/materials.json for the tool, the docs, Godot and Unity.
 
 usage: materials.py [--check]    Writes their lists; --check: exits with 1 if one of them differs.
 SPDX-License-Identifier: MIT
@@ -78,14 +78,6 @@ def for_unity(materials):
             "        internal static readonly EverydayMaterial[] All =\n        {\n" + "".join(rows) + "        };\n    }\n}\n")
 
 
-def for_page(materials):
-    rows = [f"  {{ title: {quoted(m['title'])}, color: \"{m['color']}\",\n    period: {quoted(m['period'])}, depth: {quoted(m['depth'])},\n"
-            f"    feel: {json.dumps(numbers(m)[:5])}, orientation: {numbers(m)[5]} }},\n" for m in materials]
-    return ("// Everyday materials. Written by assets/make/materials.py from assets/materials.json. feel: as surfaces have it, without\n"
-            "// the method. SPDX-License-Identifier: MIT\n"
-            "export const MATERIALS = [\n" + "".join(rows) + "];\n")
-
-
 def quoted(text):
     return json.dumps(text, ensure_ascii=False)
 
@@ -95,7 +87,6 @@ LISTS = {
     "bindings/unity/package/Editor/EverydayMaterial.List.cs": for_unity,
     "docs/materials.md": for_docs,
     "samples/knurl/materials.c": for_tool,
-    "samples/web/materials.js": for_page,
 }
 
 

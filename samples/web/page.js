@@ -10,6 +10,9 @@ export function tell(text, isError = false) {
 // that it came from.
 export const scene = { view: undefined, surfaces: [], bytes: null, name: "" };
 
+// Sliders of a surface, in the order of its feel, and their units in one of a feel: m, N/m.
+export const SLIDERS = [["fsx", 1], ["fsy", 1], ["amplitude", 1000], ["stiffness", 1], ["friction", 1]];
+
 export const surface = () => scene.surfaces[$("surface").value];
 
 export function setSurfaces(surfaces) {

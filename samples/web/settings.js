@@ -1,11 +1,10 @@
 // Settings of surface and device; links and the failures' catalogue set them. SPDX-License-Identifier: MIT
 import { listen, method, setMethod } from "./compare.js";
-import { $, isPressed, press, scene, surface, tell } from "./page.js";
+import { $, SLIDERS, isPressed, press, scene, surface, tell } from "./page.js";
 import { PRESETS } from "./presets.js";
 import { showSwatches } from "./swatches.js";
 
 const METHODS = ["bandlimited", "S1", "S2", "bandlimited"];
-const SLIDERS = [["fsx", 0, 1], ["fsy", 1, 1], ["amplitude", 2, 1000], ["stiffness", 3, 1], ["friction", 4, 1]];
 const DEVICE = ["depth", "exaggeration", "rate", "resolution"];
 const GHOST = { half: 0.045, speed: 0.12 }; // m, m/s
 export const SETTINGS = ["model", "surface", "method", ...SLIDERS.map(([id]) => id), ...DEVICE];
@@ -16,7 +15,7 @@ export function tag(feel) {
     method: METHODS[feel[5]] };
 }
 
-export const shownFeel = () => [...SLIDERS.map(([id, , scale]) => Number($(id).value) / scale), method()];
+export const shownFeel = () => [...SLIDERS.map(([id, scale]) => Number($(id).value) / scale), method()];
 
 export const value = (id) => (id === "method" ? String(method()) : $(id).value);
 
@@ -48,9 +47,9 @@ export function showFeel() {
   if (!feel) {
     return;
   }
-  for (const [id, index, scale] of SLIDERS) {
-    $(id).value = feel[index] * scale;
-  }
+  SLIDERS.forEach(([id, scale], i) => {
+    $(id).value = feel[i] * scale;
+  });
   setMethod(feel[5] || 3);
   showOutputs();
 }
@@ -149,7 +148,7 @@ export class Settings {
     }
   }
 
-  // Applies a failure of the catalogue: settings, and a stroke that shows it; none: the settings before.
+  // Applies a failure of the catalogue: settings, and a stroke that shows it; without one, the settings before.
   async usePreset(preset) {
     showPreset(preset);
     const before = this.before ?? new Map(SETTINGS.map((id) => [id, value(id)]));

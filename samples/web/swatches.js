@@ -1,8 +1,6 @@
 // Everyday materials as swatches, which set the chosen surface's ridges. SPDX-License-Identifier: MIT
-import { MATERIALS } from "./materials.js";
-import { $ } from "./page.js";
-
-const SLIDERS = [["fsx", 1], ["fsy", 1], ["amplitude", 1000], ["stiffness", 1], ["friction", 1]]; // and units a feel's unit
+import { materials } from "./materials.json"; // of assets
+import { $, SLIDERS } from "./page.js";
 
 // Until they are moved, sliders take numbers between their steps and beyond their ends.
 function loosen(feel) {
@@ -20,7 +18,9 @@ function tighten({ target }) {
 
 // take(feel, color) is given a material's numbers: ridges along x and y (1/m), amplitude (m), stiffness (N/m), friction.
 export function showSwatches(take) {
-  for (const { title, color, period, depth, feel, orientation } of MATERIALS) {
+  for (const { title, color, period, depth, tag } of materials) {
+    const { orientation } = tag;
+    const feel = [...tag.spatial_frequency, tag.amplitude, tag.stiffness, tag.friction];
     const swatch = document.createElement("button");
     const sources = `${title}. Period: ${period}. Depth: ${depth}.`;
     swatch.type = "button";
