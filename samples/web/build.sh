@@ -12,11 +12,17 @@ if ! cmp -s "$here/package-lock.json" "$work/page/installed.json"; then # the lo
     cp "$here/package-lock.json" "$work/page/installed.json"
 fi
 "$here/wasm.sh" "$work"
-cp "$here"/*.js "$work/knurl.mjs" "$work/page/"
+cp "$here"/*.js "$here/../../assets/materials.json" "$work/knurl.mjs" "$work/page/"
 "$work/page/node_modules/@esbuild/linux-x64/bin/esbuild" "$work"/page/{main,view,worker,unpack}.js --bundle --minify --format=esm \
     --external:./view.js --external:./unpack.js --legal-comments=eof --outdir="$out" --log-level=warning
 cp "$here"/{index.html,start.js,style.css} "$work/knurl.wasm" "$out/"
 cp "$work"/page/node_modules/three/examples/jsm/libs/draco/gltf/draco_{decoder.wasm,wasm_wrapper.js} "$out/draco/"
 [ ! -f /usr/share/common-licenses/Apache-2.0 ] || cp /usr/share/common-licenses/Apache-2.0 "$out/draco/LICENSE" # Google's Draco
-cat "$here"/../../{LICENSE,bindings/godot/addons/knurl/THIRD_PARTY.md} >"$out/licences.txt" # of the code in knurl.wasm
+{
+    cat "$here"/../../{LICENSE,bindings/godot/addons/knurl/THIRD_PARTY.md} # of the code in knurl.wasm
+    printf '\n# three.js, in view.js and unpack.js\n\n'
+    cat "$work/page/node_modules/three/LICENSE"
+    printf '\n# meshoptimizer, in unpack.js, under the same licence\n\n'
+    sed -n 's|^// \(Copyright .*\)|\1|p' "$work/page/node_modules/three/examples/jsm/libs/meshopt_decoder.module.js"
+} >"$out/licences.txt"
 cp "$here"/../../assets/{plate_1d,grid_2d,knurled_handle}.glb "$out/assets/"
