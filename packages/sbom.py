@@ -26,9 +26,8 @@ def package(name, version, licence, copyright_text):
 def contained():
     rows = re.findall(r"^\| ([^|]+) \| ([^|]+) \| ([^|]+) \|$", THIRD_PARTY.read_text(encoding="utf-8"), re.M)
     for name, licence, copyright_text in rows[1:]:
-        if licence in LICENCES:
-            name, version = re.fullmatch(r"`?(.*?)`?(?:,? (\d[\d.]*))?", name.replace("`", "")).groups()
-            yield package(name, version, LICENCES[licence], copyright_text)
+        name, version = re.fullmatch(r"(.*?)(?:,? (\d[\d.]*))?", name.replace("`", "")).groups()
+        yield package(name, version, LICENCES[licence], copyright_text)
     for name, licence in BESIDE:
         yield package(name, None, licence, "NOASSERTION")
 
