@@ -29,7 +29,7 @@ export function load(apiFile, libraryFile) {
   for (const [name, { value }] of Object.entries(api.constants)) knurl[name] = value;
   const parameter = ({ type }) => type === "const char *" ? type : /[*[]/.test(type) ? "void *" : type;
   for (const [name, { returns, parameters, variadic }] of Object.entries(api.functions)) {
-    let call = null; // of another library, such as knurl_gltf, until it is called
+    let call = null; // found at the first call: knurl_gltf's are not in this library
     knurl[name] = (...values) => (call ??= library.func(name, /[*]/.test(returns) && returns !== "const char *" ? "void *" : returns,
       [...parameters.map(parameter), ...(variadic ? ["..."] : [])]))(...values);
   }

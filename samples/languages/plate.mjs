@@ -8,11 +8,9 @@ const plane = create("knurl_plane_desc");
 const material = set("knurl_material_desc", create("knurl_material_desc"), { stiffness: 400 }); // N/m
 const surface = set("knurl_surface_desc", create("knurl_surface_desc"), { plane, material });
 
-const made = [null];
 const pointer = koffi.alloc("void *", 1);
 check(knurl.knurl_scene_create(null, pointer));
-made[0] = koffi.decode(pointer, "void *");
-const [scene] = made;
+const scene = koffi.decode(pointer, "void *");
 check(knurl.knurl_scene_add_surface(scene, surface, null));
 check(knurl.knurl_scene_commit(scene));
 
