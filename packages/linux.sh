@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Packs what a build with shared libraries installs, as an archive that runs where it is unpacked: tool, libraries, headers,
+# Packs the files that a build with shared libraries installs, as an archive that runs from any folder: tool, libraries, headers,
 # man page and completions, demo scenes, samples, the site; and its debug information, by build ID, in a second archive if
 # there is any.
 # usage: linux.sh OUT NAME BUILD KNURL SITE     Writes OUT/NAME.tar.gz and OUT/NAME-debug.tar.gz. KNURL: a tool that runs here;

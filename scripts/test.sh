@@ -188,7 +188,7 @@ test_elsewhere() {
     tests/package/elsewhere.py build build/release/knurl assets/plate_1d.glb
 }
 
-# Tries the Blender extension in PyPI's releases of Blender; prints a note and continues if none can be had.
+# Tries the Blender extension in PyPI's releases of Blender; prints a note and continues if they cannot be had.
 soak_blender() {
     local code=0
     (need_packages python3-venv && need_npm) && tests/blender/run.sh build/release build/blender 4.2 4.5 5.0 || code=$?

@@ -49,7 +49,7 @@ export function drawComparison(history, amplitude) {
   const rows = history.latest(SHOWN_S * history.rate);
   const steady = rows.length > 0 && rows[0].heights ? findSteady(rows, history.rate) : null;
   if (!steady) {
-    return; // what was measured last stays
+    return; // the last values stay
   }
   const part = rows.slice(steady.from, steady.from + steady.count);
   const { frequency } = part[part.length - 1];

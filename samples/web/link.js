@@ -44,7 +44,7 @@ export class Link {
     addEventListener("popstate", () => this.follow());
   }
 
-  // Does what the address bar says.
+  // Follows the address bar.
   async follow() {
     const link = new URLSearchParams(location.hash.slice(1));
     if (this.followed === location.hash) {

@@ -6,7 +6,7 @@ const MOST_TRIANGLES = 40000; // of a model; more would take seconds
 const CHUNK = 1000; // triangles that are surveyed at once: ticks go on between
 const INSET = 0.05; // a corner is surveyed this far from it, in the triangle
 
-// A square wave, whose edges are as sharp as a pixel allows; it fades where ridges are finer than pixels.
+// A square wave, whose edges are as sharp as a pixel allows; it fades if ridges are finer than pixels.
 const WAVE = `
 varying vec3 vCoordinates;
 uniform vec2 ridges;

@@ -1,4 +1,4 @@
-/* Where the ridges are on any model, for drawing them: the grating's coordinates at points of its surfaces.
+/* The places of ridges on any model, for drawing them: the grating's coordinates at points of its surfaces.
  * SPDX-License-Identifier: MIT */
 #include "web.h"
 

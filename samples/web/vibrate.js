@@ -35,7 +35,7 @@ export class Vibration {
   }
 }
 
-// The button, where there is a motor. Returns take() of a vibration that is off until it is pressed.
+// The button, if there is a motor. Returns take() of a vibration that is off until it is pressed.
 export function offer() {
   if (!navigator.vibrate || !matchMedia("(pointer: coarse)").matches) {
     return () => {};

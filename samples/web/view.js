@@ -87,7 +87,7 @@ export class View {
     this.controls.update();
   }
 
-  // The camera, from the middle of what it looks at, in units of the model's size.
+  // The camera, from its target, in units of the model's size.
   get pose() {
     return this.camera.position.clone().sub(this.controls.target).divideScalar(this.size).toArray();
   }

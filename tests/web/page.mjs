@@ -29,7 +29,7 @@ async function pixels(tab, selector, share) {
   }, [[...shot], share]);
 }
 
-// Opens what is folded, so that a user could reach it.
+// Opens folded parts.
 const unfold = (tab) => tab.evaluate(() => document.querySelectorAll("details").forEach((part) => { part.open = true; }));
 
 // A failure of the catalogue, and waits until it is stroked.

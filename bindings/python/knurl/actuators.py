@@ -8,7 +8,7 @@ from .ticks import Ticks
 
 
 def coil(ticks: Ticks, sample_rate: float = 48000.0) -> Tuple[np.ndarray, np.ndarray]:
-    """What these ticks feel like, for other actuators, as knurl/audio.h has them. Returns a coil's samples, N, -1 to 1
+    """The forces of these ticks, for other actuators, as in knurl/audio.h. Returns a coil's samples, N, clipped at -1 and 1
     (KNURL_VOICE_COIL; each comes 4 ticks after its tick), and a row a tick for a gamepad's two rumble motors, 0 to 1
     (knurl_audio_get_rumble()). Needs the fields flags, normal and force."""
     rate = ticks._hz()
