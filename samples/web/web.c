@@ -202,7 +202,7 @@ EMSCRIPTEN_KEEPALIVE void web_tick(uint32_t count, const double *positions, doub
     }
 }
 
-/* The surface that a straight line meets: line: from (3), to (3); found: point (3), normal (3). 0: it meets no surface. */
+/* The surface that a straight line meets: line: from (3), to (3); found: point (3), normal (3). 0: no surface. */
 EMSCRIPTEN_KEEPALIVE int web_cast(const double line[6], double found[6]) {
     knurl_surface_point point;
     knurl_surface_point_init(&point, sizeof point);
