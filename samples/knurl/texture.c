@@ -1,4 +1,4 @@
-/* Reads a picture, finds its ridges, and says in a tag's words what they are. SPDX-License-Identifier: MIT */
+/* Reads a picture, finds its ridges, and describes them in a tag's words. SPDX-License-Identifier: MIT */
 #include "texture.h"
 
 #include "options.h"
@@ -12,8 +12,9 @@
 #define RIGHT_ANGLE 0.0872             /* cosine of 85 degrees: a grid's axes may be so far from right angles */
 #define NEARLY      (0.5 * PI / 180.0) /* so that upright ridges are not at -90 degrees now and at 90 then */
 #define PI          3.14159265358979323846
+#define STEEPEST    1e6 /* a file may ask for more than a float holds */
 
-/* --- what a picture's colours mean --- */
+/* --- the meaning of a picture's colours --- */
 
 /* Colours of a normal map point to the front, on a sphere, and in no direction more than in others. */
 static int looks_like_normals(const picture_part *part) {
@@ -40,12 +41,13 @@ int texture_field(const texture_result *r, const picture_part *part, field *made
     const size_t count = (size_t)part->width * part->height;
     float *samples = malloc(2 * count * sizeof *samples);
     float *down = samples ? samples + count : NULL;
+    const float steepness = (float)fmax(-STEEPEST, fmin(STEEPEST, r->from.steepness));
     for (size_t i = 0; i < count && samples; i++) {
         const float *c = &part->rgb[3 * i];
         if (is_normal(r)) { /* x to the right and y up, both of the height's fall */
             const float z = fmaxf(2.0F * c[2] - 1.0F, 0.05F);
-            samples[i] = -(2.0F * c[0] - 1.0F) / z * (float)r->from.steepness;
-            down[i] = (2.0F * c[1] - 1.0F) / z * (float)r->from.steepness;
+            samples[i] = -(2.0F * c[0] - 1.0F) / z * steepness;
+            down[i] = (2.0F * c[1] - 1.0F) / z * steepness;
         } else if (strcmp(r->use, "occlusion") == 0) {
             samples[i] = c[0];
         } else {

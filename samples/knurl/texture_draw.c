@@ -1,4 +1,4 @@
-/* Draws what was found in a picture: the picture with ridges over its right half, and its spectrum.
+/* Draws the result of a search: the picture with ridges over its right half, and its spectrum.
  * SPDX-License-Identifier: MIT */
 #include "texture.h"
 
@@ -53,7 +53,7 @@ static uint32_t crop_side(const texture_result *r, const picture_part *part) {
     }
     const uint32_t least = part->width < part->height ? part->width : part->height;
     const double side = finest > 0.0 ? RIDGES / finest : least;
-    return side < 24.0 ? 24 : side < least ? (uint32_t)side : least;
+    return (uint32_t)fmin(least, fmax(24.0, side));
 }
 
 static int put_crop(FILE *to, const picture_part *part, uint32_t left, uint32_t top, uint32_t side) {

@@ -83,7 +83,7 @@ static void write_jpeg(const char *name, const unsigned char *rgb) {
  * if seen from the front with x to the right. */
 static const double metres[2] = {0.06, 0.03};
 
-/* material: what is in it; more: other members of the root. scales: 1: a second node shows it twice as large. */
+/* material: its members; more: other members of the root. scales: 1: a second node shows it twice as large. */
 static const char *write_textured(const char *name, const char *material, const char *more, int scales) {
     static const float corners[6][5] = {{-0.06F, 0, -0.03F, 0, 0}, {-0.06F, 0, 0.03F, 0, 2}, {0.06F, 0, 0.03F, 2, 2},
                                         {-0.06F, 0, -0.03F, 0, 0}, {0.06F, 0, 0.03F, 2, 2},  {0.06F, 0, -0.03F, 2, 0}};
@@ -239,6 +239,21 @@ TEST(a_drawing_shows_picture_and_spectrum) {
     assert_non_null(strstr(svg, "<svg xmlns"));
     assert_non_null(strstr(svg, "11 mm apart, across 45.0&#176;"));
     assert_non_null(strstr(svg, "</svg>"));
+    free(svg);
+}
+
+/* The whole, averaged, is fewer samples high than a drawing shows as a rule. */
+TEST(a_drawing_of_a_long_low_picture_stays_inside_it) {
+    enum { WIDTH = 8192, HEIGHT = 64 };
+    unsigned char *flat = calloc((size_t)3 * WIDTH, HEIGHT);
+    assert_non_null(flat);
+    write_png("low.png", flat, WIDTH, HEIGHT, NULL);
+    free(flat);
+    SCOPED_PROCESS p = RUN_TOOL("tag", "--from-picture", tool_path("low.png"), "--picture-size", "1m", "--drawing",
+                                tool_path("low.svg"));
+    assert_int_equal(p.exit_code, 3);
+    char *svg = read_file(tool_path("low.svg"));
+    assert_non_null(strstr(svg, "no regular pattern"));
     free(svg);
 }
 
