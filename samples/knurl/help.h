@@ -1,4 +1,4 @@
-/* The commands of the tool in one table: help, a man page and completions. SPDX-License-Identifier: MIT */
+/* Help, a man page and completions, all by one table (help_table.h). SPDX-License-Identifier: MIT */
 #ifndef KNURL_HELP_H
 #define KNURL_HELP_H
 
@@ -13,8 +13,5 @@ void help_print_man(void);
 
 /* Prints a completion script for bash, zsh or fish. Returns 0, or 1 for another shell. */
 int help_print_completion(const char *shell);
-
-/* The command nearest to a mistyped word, or null. */
-const char *help_nearest_command(const char *word);
 
 #endif

@@ -57,12 +57,17 @@ static const char *help_asked(int argc, char **argv) {
 }
 
 static int unknown_command(const char *name) {
-    const char *near = help_nearest_command(name);
-    return tool_error(
-        TOOL_USAGE,
-        "expected a command (inspect, tag, run, signal, metrics, scan, study, bench, devices, calibrate, sweep, verify), found '%s'%s%s%s; "
-        "see 'knurl --help'",
-        name, near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "");
+    enum { COUNT = sizeof commands / sizeof *commands };
+    const char *names[COUNT];
+    char list[256] = "";
+    for (size_t i = 0; i < COUNT; i++) {
+        const size_t used = strlen(list);
+        names[i] = commands[i].name;
+        (void)snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "", names[i]);
+    }
+    const char *near = tool_nearest(name, names, COUNT);
+    return tool_error(TOOL_USAGE, "expected a command (%s), found '%s'%s%s%s; see 'knurl --help'", list, name,
+                      near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "");
 }
 
 static int complete(const char *shell) {

@@ -73,7 +73,7 @@ def compiler_errors(folder, compilers):
 def shell_errors(folder):
     """Syntax, files, commands of ./run, and commands and options of the tool, by its help."""
     run = set(re.findall(r"^([a-z-]+)(?: \| -h.*)?\) ", (ROOT / "run").read_text(encoding="utf-8"), re.M))
-    tool_help = (ROOT / "samples/knurl/help.c").read_text(encoding="utf-8")
+    tool_help = (ROOT / "samples/knurl/help_table.c").read_text(encoding="utf-8")
     for where, path in write("sh", folder):
         done = subprocess.run(["bash", "-n", path], capture_output=True, text=True, check=False)
         if done.returncode:

@@ -15,6 +15,7 @@ WRITERS = {
     "samples/common/csv.c": "cleans all names",
     "samples/common/out.c": "prints numbers",
     "samples/knurl/help.c": "prints its own tables",
+    "samples/knurl/help_completion.c": "prints its own tables",
     "samples/knurl/cmd_tag.c": "writes a glTF file's bytes",
     "samples/knurl/sound.c": "writes samples of sound",
     "samples/knurl/texture_draw.c": "draws numbers as SVG, no names",

@@ -82,6 +82,8 @@ TEST(completion_offers_values_where_there_are_some_and_files_elsewhere) {
                  {"knurl run --fa", "--fast\n"},
                  {"knurl signal --method ''", "T1 T2 T3\n"},
                  {"knurl bench --case paced_pl", "paced_plane"},
+                 {"knurl verify --only wa", "wall\n"},
+                 {"knurl tag a.glb --material ''", "\n"},
                  {"knurl study tr", "tradeoff tracking transitions\n"},
                  {"knurl help insp", "inspect\n"},
                  {"knurl completion ''", "bash zsh fish\n"}};
@@ -104,6 +106,7 @@ TEST(man_page_and_completions_name_every_command) {
         check_has(zsh.out, commands[i]);
         check_has(fish.out, commands[i]);
     }
+    check_has(fish.out, "-a \"help man completion\"");
     assert_memory_equal(zsh.out, "#compdef knurl\n", 15); /* for a folder in zsh's fpath */
     process_free(&man);
 }
