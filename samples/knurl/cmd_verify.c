@@ -29,7 +29,7 @@ static int say_only(verify *v, verify_wish wish, const char *sentence) {
     return 0;
 }
 
-/* Enter: done; s and Enter: left out; the end of input is nobody there. */
+/* Enter: done; s and Enter: left out, and so at the end of input or after Ctrl-C. */
 static int ask(verify *v, verify_wish wish, const char *sentence) {
     int first = 0;
     if (wish >= VERIFY_PULL) {
@@ -39,11 +39,11 @@ static int ask(verify *v, verify_wish wish, const char *sentence) {
     say(stderr, "    %s; Enter begins, s and Enter leaves it out. ", sentence);
     for (int c = getchar(); c != '\n'; c = getchar()) {
         first = first ? first : c;
-        if (c == EOF || interrupted) {
+        if (c == EOF) {
             return 1;
         }
     }
-    return first == 's';
+    return interrupted || first == 's';
 }
 
 static const verify_person asked = {ask, NULL, NULL};

@@ -1,6 +1,8 @@
 /* knurl verify's last steps: the stiffest wall, the response, and faults on purpose. SPDX-License-Identifier: MIT */
+#include "os.h"
 #include "tool.h"
 #include "verify.h"
+#include "watch.h"
 
 #include <knurl/hip.h>
 #include <knurl/scene.h>
@@ -12,7 +14,7 @@
 #define LEVEL      300 /* ticks at a stiffness */
 #define BLOCK      50  /* of these, whose deviation tells a vibration from a hand that moves */
 
-/* A spring to where the grip was, on both sides, with a kick at each stiffness. state: the place, the block's sum and
+/* A spring to the first position, on both sides, with a kick at each stiffness. state: the place, the block's sum and
  * sum of squares, the level's sum of variances, the last stiffness that was calm. */
 static void wall(verify *v, uint64_t tick, double force[3]) {
     double *s = v->state;
@@ -116,16 +118,20 @@ typedef struct cut {
     double push;   /* N: the force while all is well */
     double first;  /* N: the first force from the event on */
     uint64_t ramp; /* ticks from there to nine tenths of the push */
-    int is_full;
+    int is_full;   /* atomic: 1: `first` and `ramp` no longer change */
 } cut;
+
+static int is_full(const cut *c) {
+    return __atomic_load_n(&c->is_full, __ATOMIC_ACQUIRE);
+}
 
 static void watch_force(const knurl_tick_output *output, void *user) {
     cut *c = user;
     const double newtons = fabs(output->device_force[1]);
-    if (__atomic_load_n(&c->is_away, __ATOMIC_ACQUIRE) && newtons > 0.0 && !c->is_full) {
+    if (__atomic_load_n(&c->is_away, __ATOMIC_ACQUIRE) && newtons > 0.0 && !is_full(c)) {
         c->first = c->ramp == 0 ? newtons : c->first;
         c->ramp++;
-        c->is_full = newtons >= 0.9 * c->push;
+        __atomic_store_n(&c->is_full, newtons >= 0.9 * c->push, __ATOMIC_RELEASE);
     }
 }
 
@@ -137,6 +143,9 @@ static int32_t await_event(verify *v, double seconds, int32_t wanted) {
             (void)knurl_loop_step(v->loop, POLL);
         } else {
             (void)knurl_loop_wait(v->loop, POLL / VERIFY_RATE);
+        }
+        if (!v->simulated) {
+            watch_key(v->interrupted);
         }
         while (knurl_device_next_event(v->device, &event)) {
             const int is_fault = event.code < KNURL_FAULT_RESUMED && event.code != KNURL_FAULT_OVERRUN;
@@ -174,6 +183,7 @@ static knurl_result push_up(verify *v, cut *c, knurl_scene **scene) {
 
 static const char *follow(verify *v, cut *c, const char *what, const verify_wish wishes[2],
                           const char *const sentences[2]) {
+    os_forget_keys();
     (void)await_event(v, BEFORE_S, KNURL_FAULT_RESUMED);
     const char *why = verify_ask(v, wishes[0], sentences[0]);
     const int32_t code = why ? 0 : await_event(v, TOLD_S, 0);
@@ -182,10 +192,10 @@ static const char *follow(verify *v, cut *c, const char *what, const verify_wish
         return why ? why : "no fault was told: it was not done, or the device does not tell it";
     }
     (void)verify_ask(v, wishes[1], sentences[1]);
-    for (int tenths = 0; !c->is_full && tenths < TOLD_S * 10 && !*v->interrupted; tenths++) {
+    for (int tenths = 0; !is_full(c) && tenths < TOLD_S * 10 && !*v->interrupted; tenths++) {
         (void)await_event(v, 0.1, KNURL_FAULT_RESUMED);
     }
-    if (!c->is_full) {
+    if (!is_full(c)) {
         return "a fault was told, but the force did not come back";
     }
     (void)verify_find(v, what, c->first, "N", 0.0, 0.3 * c->push, "the first force after its event: a ramp from zero",

@@ -12,7 +12,7 @@
 #define PULSES  12
 #define USED    10  /* of them, the last ones */
 #define SHARE   0.7 /* of the force; the rest carries the grip over its encoders' counts, slowly */
-#define SLOW    3   /* its turns in USED pulses: none of it is left in their mean */
+#define SLOW    3   /* its turns in USED pulses, a whole number: it cancels out in their mean */
 
 static void pulses(verify *v, uint64_t tick, double force[3]) {
     const double slow = sin(2.0 * PI * (double)(SLOW * tick % (USED * SPACE)) / (USED * SPACE));
@@ -99,6 +99,9 @@ const char *verify_scale(verify *v) {
         return why;
     }
     const double sent = loaded.sum / (double)loaded.count - empty.sum / (double)empty.count;
+    if (sent < 0.1 * GRAVITY * v->mass) {
+        return "the grip with the mass is hardly heavier: the mass is not on it, or something carries it";
+    }
     v->scale = GRAVITY * v->mass / sent;
     (void)verify_find(v, "force for each N that is sent", v->scale, "N", 0.85, 1.15,
                       "the known mass, 15 % for friction", "%s: %.3g N were sent to carry %.3g N",
@@ -113,8 +116,8 @@ const char *verify_scale(verify *v) {
 #define REST  200
 #define SIDES 6
 
-/* Pushes along each axis, to both sides, until the grip moves. state: a breakaway force for each side, then where it
- * stood, and whether it has moved. */
+/* Pushes along each axis, to both sides, until the grip moves. state: a breakaway force for each side, then its
+ * place before, and whether it has moved. */
 static void ramps(verify *v, uint64_t tick, double force[3]) {
     const int side = (int)(tick / RAMP) % SIDES;
     const int k = (int)(tick % RAMP) - REST;

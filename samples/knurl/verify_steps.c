@@ -57,10 +57,11 @@ static void wake(verify *v, uint64_t tick, double force[3]) {
 }
 
 static const char *wake_up(verify *v) {
-    v->is_awake = 1;
     const char *why =
         verify_ask(v, VERIFY_HOLD, "Hold the grip loosely in the middle of its workspace: its motors are checked");
-    return why ? why : verify_play(v, WAKE_S, wake);
+    why = why ? why : verify_play(v, WAKE_S, wake);
+    v->is_awake = why == NULL;
+    return why;
 }
 
 static const char *run_if_able(verify *v, const verify_step *s) {

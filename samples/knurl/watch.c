@@ -15,12 +15,17 @@ static int first_fault(const faults *f) {
     return 0;
 }
 
+void watch_key(volatile sig_atomic_t *interrupted) {
+    if (isatty(STDIN_FILENO) && os_wait_for_key() > 0) {
+        *interrupted = SIGINT;
+    }
+}
+
 int watch_loop(knurl_loop *loop, knurl_device *device, uint64_t ticks, double rate, int simulated,
                volatile sig_atomic_t *interrupted, knurl_loop_stats *stats) {
-    const int has_keys = !simulated && isatty(STDIN_FILENO);
     faults f;
     faults_start(&f);
-    if (has_keys) {
+    if (!simulated) {
         os_forget_keys();
     }
     do {
@@ -32,8 +37,8 @@ int watch_loop(knurl_loop *loop, knurl_device *device, uint64_t ticks, double ra
         (void)knurl_loop_get_stats(loop, stats);
         const double now = (double)stats->ticks / rate;
         faults_show(&f, device, simulated ? now : -1.0);
-        if (has_keys && os_wait_for_key() > 0) {
-            *interrupted = SIGINT;
+        if (!simulated) {
+            watch_key(interrupted);
         }
         if (*interrupted || first_fault(&f)) {
             knurl_loop_request_stop(loop);

@@ -25,9 +25,11 @@ static struct {
 
 static volatile sig_atomic_t interrupted;
 uint64_t planted_interrupts_at;
+int planted_without_mass;
 
 static int ask(verify *v, verify_wish wish, const char *sentence) {
     const int refused = verify_hand_person.ask(v, wish, sentence);
+    p.hand.weight = planted_without_mass ? 0.0 : p.hand.weight;
     if (!p.device || (wish == VERIFY_STOP && !(p.device->faults & 1u << DOUBLE_OFF))) {
         return refused;
     }
@@ -100,8 +102,8 @@ void planted_run(verify *v, const char *uri, const device_double *device, plante
     }
     knurl_device_info_init(&v->info, sizeof v->info);
     assert_int_equal(knurl_device_get_info(v->device, &v->info), KNURL_OK);
-    p.lateness =
-        LATE + (device ? (uint64_t)v->info.delay : 0); /* doubles have less delay than their devices, or none */
+    p.lateness = LATE + (device ? (uint64_t)v->info.delay
+                                : 0); /* doubles have less delay than their devices, some have no delay */
     assert_int_equal(verify_run(v), 0);
     if (device) {
         device->close(v->device);

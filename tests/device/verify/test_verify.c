@@ -74,7 +74,7 @@ static void check_named(planted_defect defect, const char *name) {
     }
 }
 
-/* Time is simulated, no fake device measures an orientation, and none has a stop. */
+/* Time is simulated, no fake device measures an orientation or has a stop. */
 TEST(fake_devices_that_are_well_pass_every_step) {
     for (size_t i = 0; i < PRESETS; i++) {
         planted_run(&v, fake_uri(i), NULL, CLEAN, NULL, NULL, MASS);
@@ -163,6 +163,16 @@ TEST(a_noise_is_its_rms) {
 TEST(a_scale_is_that_of_the_force) {
     CHECK_CLOSE(measured(EXACT "&coulomb=0.3", HALF_GAIN, "scale"), 0.5, 0.005);
     CHECK_CLOSE(measured(EXACT "&coulomb=0.3", CLEAN, "scale"), 1.0, 0.01);
+}
+
+/* A gain that weighs nothing is unknown, and not the friction's. */
+TEST(a_mass_that_was_not_hung_leaves_the_scale_unknown) {
+    planted_without_mass = 1;
+    planted_run(&v, EXACT "&coulomb=0.3", NULL, CLEAN, "scale,friction", NULL, MASS);
+    planted_without_mass = 0;
+    assert_int_equal(v.finding_count, 2);
+    assert_int_equal(v.findings[0].verdict, VERIFY_NOT_MEASURED);
+    CHECK_CLOSE(v.findings[1].measured, 0.335, 0.04);
 }
 
 /* A held mass without dry friction is stable below K = b/(T/2 + td), less the hand's spring; a step of the search is a
