@@ -186,7 +186,7 @@ static int search_picture(const texture_options *options, choice *c) {
     return TOOL_OK;
 }
 
-/* --- what was found --- */
+/* --- the result --- */
 
 static void print_result(const texture_result *r, int pretty) {
     json_writer json;

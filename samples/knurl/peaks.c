@@ -13,7 +13,7 @@
 #define HEIGHT_MIN 40.0
 
 #define EVENNESS_MIN 0.4  /* of the picture, at least, has the ridges */
-#define WINDOW_FLOOR 1e-6 /* of the highest power: what is below is the window's, or rounding */
+#define WINDOW_FLOOR 1e-6 /* of the highest power: less is the window's, or rounding */
 #define SIDELOBE     1e-3 /* of the highest peak's power: the window's own peaks are below */
 
 typedef struct candidate {

@@ -4,7 +4,7 @@
 
 #include "raster.h"
 
-/* Reads a picture. 0; or -1, and why says in a sentence without the picture's name what is wrong. */
+/* Reads a picture. 0; or -1, and why holds the reason: a sentence without the picture's name. */
 int picture_read(const unsigned char *data, size_t size, picture *read, char why[256]);
 
 #endif

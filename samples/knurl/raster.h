@@ -1,4 +1,4 @@
-/* The samples of a picture, filled in by a decoder row by row, and reduced to what the search for ridges reads.
+/* The samples of a picture, filled in by a decoder row by row, and reduced for the search for ridges.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_RASTER_H
 #define KNURL_RASTER_H

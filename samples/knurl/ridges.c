@@ -78,7 +78,7 @@ static int is_parallel(const double a[2], const double b[2]) {
     return fabs(cross(a, b)) < PARALLEL * sqrt(dot(a, a) * dot(b, b));
 }
 
-/* The longest vector that explains nearly as much as the best, and more than `least`; -1 if there is none. first: the
+/* The longest vector that explains nearly as much as the best, and more than `least`; -1: no such vector. first: the
  * axis that it must not be along, or null. */
 static int find_axis(const lattice *l, const double *first, double least) {
     double best = least, longest = 0.0;

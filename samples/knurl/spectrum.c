@@ -56,7 +56,7 @@ static void fit_trend(const field *f, const float *samples, double trend[TERMS])
     solve(matrix, trend);
 }
 
-/* Puts what is left of the samples without the trend, in the window, into the real or the imaginary parts. */
+/* Puts the samples less the trend, in the window, into the real or the imaginary parts. */
 static void put_samples(const field *f, const float *samples, kiss_fft_cpx *table, int width, int imaginary) {
     double trend[TERMS];
     fit_trend(f, samples, trend);
@@ -165,7 +165,7 @@ double spectrum_floor(const spectrum *s, int x, int y) {
     size_t count = 0;
     const int half_x = abs(x) / 2 < 4 ? 4 : abs(x) / 2 < HALF ? abs(x) / 2 : HALF;
     const int half_y = abs(y) / 2 < 4 ? 4 : abs(y) / 2 < HALF ? abs(y) / 2 : HALF;
-    const int half = half_x > half_y ? half_x : half_y; /* near 0, where the power falls fast, a smaller patch */
+    const int half = half_x > half_y ? half_x : half_y; /* smaller near 0: the power falls fast there */
     const double middle = square_of(s, x, y) + 1e-30;   /* pictures without a pattern have power as 1 / frequency^2 */
     const double lobe[2] = {2.5 * s->bin[0] * s->width, 2.5 * s->bin[1] * s->height};
     for (int dy = -half; dy <= half; dy++) {

@@ -21,7 +21,7 @@ typedef struct texture {
     double steepness; /* of a normal picture: knurl_gltf_texture.scale */
 } texture;
 
-/* What was found, in the tag's words. */
+/* The ridges that were found, in the tag's words. */
 typedef struct texture_result {
     texture from;
     const char *use;        /* as it was read */
@@ -38,7 +38,7 @@ typedef struct texture_result {
     const char *note;                  /* about an axis that the tag leaves out; or null. Static */
 } texture_result;
 
-/* Searches one picture. TOOL_OK, also without a pattern; or TOOL_FAILURE, and why says what is wrong with it. */
+/* Searches one picture. TOOL_OK, also without a pattern; or TOOL_FAILURE, and why holds the reason. */
 int texture_search(const texture *from, texture_result *result, char why[256]);
 
 /* The samples that are searched: slopes, or one brightness; the caller frees made->right. 0 if there is no memory. */

@@ -1,4 +1,4 @@
-/* knurl verify: findings, and what its steps share. SPDX-License-Identifier: MIT */
+/* knurl verify: findings, and functions that its steps share. SPDX-License-Identifier: MIT */
 #include "verify.h"
 
 #include "say.h"

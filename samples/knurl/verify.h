@@ -1,5 +1,5 @@
 /* knurl verify: a table of short steps that a person and a device go through. A step asks the person for something,
- * plays forces or none, and adds findings: expected, measured, verdict. SPDX-License-Identifier: MIT */
+ * plays forces in some, and adds findings: expected, measured, verdict. SPDX-License-Identifier: MIT */
 #ifndef KNURL_VERIFY_H
 #define KNURL_VERIFY_H
 
@@ -23,10 +23,10 @@ typedef struct verify_finding {
     double least, most, measured; /* expected from least to most */
     const char *source;           /* of the expectation */
     int verdict;
-    char note[256]; /* if it failed: what that means; if it was not measured: why */
+    char note[256]; /* if it failed: the meaning; if it was not measured: the reason */
 } verify_finding;
 
-/** What a person is asked for. The last four: while a loop runs, so that nobody waits for Enter. */
+/** Requests to a person. The last four come while a loop runs, so they do not wait for Enter. */
 typedef enum verify_wish {
     VERIFY_HOLD,
     VERIFY_LET_GO,
@@ -68,9 +68,9 @@ struct verify {
     volatile sig_atomic_t *interrupted;
     double (*seconds)(void); /* a clock; null: time is simulated, and not judged */
     int simulated;           /* 1: loops are stepped on this thread */
-    double mass;             /* kg: of --mass; NAN: none */
+    double mass;             /* kg: of --mass; NAN: not given */
     const char *response_path;
-    const char *only, *skip; /* names with commas in between; null: all, none */
+    const char *only, *skip; /* names with commas in between; null: not given */
     FILE *stream;            /* findings are printed there as they come; or null */
 
     knurl_device_info info;
@@ -92,7 +92,7 @@ struct verify {
     uint64_t count;  /* of rows */
     double times[2]; /* s: of the first and the last tick */
     knurl_loop_stats stats;
-    int32_t fault; /* that ended it; 0: none */
+    int32_t fault; /* that ended it; 0: no fault */
 
     verify_finding findings[VERIFY_FINDINGS];
     int finding_count;
@@ -108,7 +108,7 @@ typedef struct verify_step {
 
 extern const verify_step verify_steps[]; /* ended by a null name */
 
-/** Checks a list of steps' names. Returns a name that is unknown, or null. */
+/** The rest of a list of steps' names from the first unknown one on, or null. */
 const char *verify_unknown(const char *names);
 
 /** Runs all steps that are wanted. Returns 0, or 1: no memory, or the device has no properties. */
@@ -138,8 +138,8 @@ const char *verify_compare(verify *v, const char *why, double (*measure)(verify 
 const char *verify_ask(verify *v, verify_wish wish, const char *sentence);
 const char *verify_ask_to_hold(verify *v);
 
-/** Adds a finding of this step. NAN is not measured; the note says why, or else what it means to be out of the range.
- * Returns 1 if it passed. */
+/** Adds a finding of this step. NAN is not measured; the note holds the reason, or else the meaning of a value out of
+ * the range. Returns 1 if it passed. */
 int verify_find(verify *v, const char *what, double measured, const char *unit, double least, double most,
                 const char *source, const char *note, ...) KNURL_PRINTF(8, 9);
 

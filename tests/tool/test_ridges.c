@@ -9,7 +9,7 @@
 
 #define NONE {0.0, 0.0, DRAWN_SINE}
 
-/* A drawing: up to two axes (apart 0: none), and what makes them hard to see. */
+/* A drawing: up to two axes (apart 0: no axis), and disturbances. */
 typedef struct drawing {
     uint32_t width, height;
     drawn_axis axes[2];
