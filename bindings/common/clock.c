@@ -122,7 +122,8 @@ void knurl_session_correct_clock(const knurl_session *session, knurl_session_way
         return;
     }
     const double length = length_of_move(way, position, rotation);
-    const int is_first = clocks[0].time - way->times[0] > LONGEST; /* after a rest */
+    const int is_first = clocks[0].time - way->times[0] > LONGEST || /* after a rest, or a clock that was set back */
+                         clocks[0].time < way->times[0] || clocks[1].time < way->times[1];
     for (int i = 0; i < KNURL_SESSION_CLOCKS; i++) {
         const double elapsed = clocks[i].time - way->times[i];
         const double speed = elapsed > 0.0 ? length / elapsed : 0.0, sum = speed + way->speeds[i];

@@ -228,6 +228,27 @@ TEST(a_stall_does_not_last) {
     knurl_session_destroy(r.s);
 }
 
+/* Physics at 50 steps a second, shown at 60 frames; after 60 frames its clock begins again. */
+TEST(a_right_guess_survives_a_clock_that_is_set_back) {
+    rig r;
+    double steps = 0.0;
+    set_up(&r, KNURL_METHOD_S1, KNURL_SESSION_STEPS);
+    r.way.is_guess = 1;
+    for (double frame = 1.0; frame < 120.0; frame += 1.0) {
+        const double done = floor(frame * 50.0 / 60.0 + 1e-9);
+        go_to(&r, frame / 60.0);
+        assert_int_equal(knurl_session_tell_time(r.s, KNURL_SESSION_FRAMES, frame / 60.0), KNURL_OK);
+        assert_int_equal(knurl_session_tell_time(r.s, KNURL_SESSION_STEPS, (frame < 60.0 ? done : done - 50.0) / 50.0),
+                         KNURL_OK);
+        if (done > steps) {
+            move_to(&r, done / 50.0);
+            assert_int_equal(r.way.clock, KNURL_SESSION_STEPS);
+        }
+        steps = done;
+    }
+    knurl_session_destroy(r.s);
+}
+
 TEST(bad_clocks_are_refused) {
     rig r;
     const double position[3] = {0.0, 0.0, 0.0};
