@@ -88,6 +88,16 @@ namespace Knurl.Tests
         }
 
         [Test]
+        public void A_number_that_is_not_finite_is_a_warning_that_names_the_key([Values(float.NaN, float.PositiveInfinity)]
+            float value)
+        {
+            GameObject owner = Grip(true);
+            LogAssert.Expect(LogType.Warning, new Regex("Assets/grip.fbx: node 'Grip.*knurl_stiffness"));
+            Send(owner, Names.Take(3).ToArray(), 1000, 0.0002, value);
+            Assert.That(owner.GetComponent<KnurlSurface>() == null);
+        }
+
+        [Test]
         public void An_object_without_a_mesh_is_a_warning()
         {
             LogAssert.Expect(LogType.Warning, new Regex("has a tag but no mesh"));

@@ -100,7 +100,9 @@ namespace Knurl.Editing
             }
             if (value is int || value is float || value is double)
             {
-                return Convert.ToString(value, CultureInfo.InvariantCulture);
+                double number = Convert.ToDouble(value, CultureInfo.InvariantCulture);
+                string digits = Convert.ToString(value, CultureInfo.InvariantCulture);
+                return double.IsNaN(number) || double.IsInfinity(number) ? Quoted(digits) : digits; // JSON has no NaN
             }
             var text = value as string;
             return text != null && IsNumbers(text) ? text : Quoted(text ?? Convert.ToString(value, CultureInfo.InvariantCulture));
