@@ -165,6 +165,15 @@ class Extension(installed.Case):
         with self.assertRaisesRegex(RuntimeError, "ridges.*texture"):
             bpy.ops.knurl.from_texture()
 
+    def test_without_blenders_gltf_add_on_the_buttons_say_so(self):
+        self.addCleanup(os.environ.pop, "KNURL_TOOL", None)
+        self.addCleanup(addon_utils.enable, "io_scene_gltf2")
+        os.environ["KNURL_TOOL"] = KNURL
+        addon_utils.disable("io_scene_gltf2")
+        for press in (bpy.ops.knurl.from_texture, bpy.ops.knurl.feel):
+            with self.assertRaisesRegex(RuntimeError, "^Error: Knurl: .*export_scene.gltf"):
+                press()
+
     def test_it_can_be_disabled_and_enabled_again(self):
         for _ in range(2):
             addon_utils.disable(NAME)

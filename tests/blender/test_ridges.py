@@ -181,6 +181,12 @@ class Ridges(installed.Case):
             cycles = 999.5 * lines[:, 0, 0] / step
             self.assertEqual(sorted(np.round(cycles).astype(int)), list(range(999 // step + 1)))
 
+    def test_a_frequency_beyond_reason_is_thinned_too(self):
+        corners = np.array([[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]])
+        for frequency, step in ((4e30, 10 ** 30), (9e299, 2 * 10 ** 299)):
+            felt = ridges().Felt(corners[:, :, :2].copy(), "box")
+            self.assertEqual(ridges().lines(corners, felt, (frequency, 0.0), 6)[2], step)
+
     def test_changes_are_seen_at_once(self):
         self.material.knurl_on = True
         before = self.shown()

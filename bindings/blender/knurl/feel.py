@@ -73,7 +73,7 @@ class KNURL_OT_feel(bpy.types.Operator):
             bpy.ops.export_scene.gltf(filepath=path, export_apply=True)  # with modifiers, as the ridges are drawn
             with open(path + ".log", "wb") as log:
                 process = subprocess.Popen([program, "run", path, "--view"], stdout=log, stderr=log)  # ends with its page
-        except (OSError, RuntimeError) as error:
+        except (AttributeError, OSError, RuntimeError) as error:  # the first: the glTF add-on is disabled
             shutil.rmtree(folder, ignore_errors=True)
             self.report({"ERROR"}, f"Knurl: {error}")
             return {"CANCELLED"}

@@ -12,8 +12,8 @@ BOX = np.array([[[0, 0, -1], [0, 1, 0]], [[0, 0, 1], [0, 1, 0]], [[1, 0, 0], [0,
 
 class Felt:
     """Coordinates of a mesh's triangles. coordinates: (n, 3, 2), m, at their corners, turned by `orientation`.
-    source: "axis", "uvs" or "box". stretch: least and greatest of the uvs along u and v. uneven: share of the area where
-    the uvs have none, or stretch by more than an octave."""
+    source: "axis", "uvs" or "box". stretch: least and greatest of the uvs along u and v. uneven: share of the area on which
+    the uvs have no area, or stretch by more than an octave."""
 
     def __init__(self, coordinates, source, stretch=((1.0, 1.0), (1.0, 1.0)), uneven=0.0):
         self.coordinates, self.source, self.stretch, self.uneven = coordinates, source, stretch, uneven
@@ -142,7 +142,6 @@ def lines(corners, felt, frequencies, limit=LIMIT):
     segments. frequencies: cycles per metre along x and y."""
     has_area = ~np.isnan(felt.coordinates).any(axis=(1, 2))
     corners, cycles = corners[has_area], felt.coordinates[has_area] * np.asarray(frequencies, float)
-    step, next_of = 1, {1: 2.0, 2: 2.5, 5: 2.0}
-    while sum(_count(cycles[:, :, k] / step) for k in (0, 1)) > limit:
-        step = int(step * next_of[int(str(step)[0])])
-    return [_cut(corners, cycles[:, :, k] / step) for k in (0, 1)] + [step]
+    steps = (digit * 10 ** power for power in range(308) for digit in (1, 2, 5))
+    step = next(each for each in steps if not sum(_count(cycles[:, :, k] / float(each)) for k in (0, 1)) > limit)
+    return [_cut(corners, cycles[:, :, k] / float(step)) for k in (0, 1)] + [step]

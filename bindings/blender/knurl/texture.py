@@ -35,7 +35,7 @@ class KNURL_OT_from_texture(bpy.types.Operator):
                 bpy.ops.export_scene.gltf(filepath=path, export_apply=True)
                 found = subprocess.run([tool, "tag", path, "--material", material.name, "--from-texture"],
                                        capture_output=True, encoding="utf-8", errors="replace", timeout=LONGEST)
-            except (OSError, RuntimeError, subprocess.TimeoutExpired) as error:
+            except (AttributeError, OSError, RuntimeError, subprocess.TimeoutExpired) as error:
                 return self._refuse("ERROR", str(error))
         said = (found.stderr.strip().splitlines() or [f"{tool} ended with {found.returncode}"])[-1]
         said = said.replace(path, material.name).removeprefix("knurl: ")
