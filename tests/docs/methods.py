@@ -115,7 +115,7 @@ LISTS = {
     "assets/knurl_extras.schema.json": schema,
     "assets/README.md": assets,
     "bindings/blender/knurl/properties.py": properties_py,
-    "bindings/godot/addons/knurl/csharp/Knurl.cs": knurl_cs,
+    "bindings/godot/addons/knurl/csharp/KnurlGrating.cs": knurl_cs,
     "bindings/godot/addons/knurl/tags.gd": tags_gd,
     "bindings/godot/doc_classes/KnurlGrating.xml": grating_xml,
     "bindings/godot/src/grating.c": grating_c,

@@ -10,9 +10,9 @@ root=$(cd "$here/../.." && pwd)
 command -v mcs >/dev/null || { echo "skipped: no mcs; apt-get install mono-mcs"; exit 77; }
 mkdir -p "$1"
 mcs -langversion:7 -warnaserror -target:library -out:"$1/Knurl.dll" "$here/csharp/Godot.cs" \
-    "$root/bindings/godot/addons/knurl/csharp/Knurl.cs"
+    "$root/bindings/godot/addons/knurl/csharp/"*.cs
 /usr/bin/python3 -B "$root/tests/docs/snippets.py" write csharp "$1" bindings/godot | while read -r shown; do
     mcs -langversion:7 -warnaserror -target:library -out:"${shown%.cs}.dll" "$here/csharp/Godot.cs" \
-        "$root/bindings/godot/addons/knurl/csharp/Knurl.cs" "$shown"
+        "$root/bindings/godot/addons/knurl/csharp/"*.cs "$shown"
 done
 echo 'the C# classes are up to date and compile'

@@ -1,4 +1,4 @@
-// Stand-ins for the part of GodotSharp that addons/knurl/csharp/Knurl.cs and README.md use: names and signatures as in
+// Stand-ins for the part of GodotSharp that addons/knurl/csharp/ and README.md use: names and signatures as in
 // the engine's C# class reference. SPDX-License-Identifier: MIT
 using System;
 
