@@ -22,7 +22,7 @@ def _stretched(part):
 
 
 def _by_shape(owner, mesh, shown):
-    """What the mesh does to the ridges. shown: see overlay.shown_of()."""
+    """Sentences on the mesh's effect on the ridges. shown: see overlay.shown_of()."""
     if shown.too_many:
         yield translated("Ridges are not drawn: {count} triangles, more than {most}").format(
             count=shown.too_many, most=overlay.TRIANGLES_MAX)

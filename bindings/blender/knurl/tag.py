@@ -71,7 +71,7 @@ def _is_number(value):
 
 
 def number(tag, key, default):
-    """A key's number; the default also for what was typed by hand and is none, of which faults() tells."""
+    """A key's number; the default if the value typed by hand is not a number, see faults()."""
     value = tag.get(key, default)
     return float(value) if _is_number(value) else default
 
@@ -84,7 +84,7 @@ def frequencies(tag):
 
 
 def axis(tag):
-    """In glTF's axes; zeros: none."""
+    """In glTF's axes; zeros: no axis."""
     value = tag.get("axis")
     return list(value) if isinstance(value, list) and len(value) == 3 and all(map(_is_number, value)) else [0.0, 0.0, 0.0]
 

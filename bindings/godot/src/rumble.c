@@ -1,4 +1,4 @@
-/* A gamepad's motors play what a device feels. SPDX-License-Identifier: MIT */
+/* A gamepad's motors play a device's force. SPDX-License-Identifier: MIT */
 #include "rumble.h"
 
 #include "sound.h"

@@ -1,4 +1,4 @@
-/* A gamepad's motors play what a device feels. SPDX-License-Identifier: MIT */
+/* A gamepad's motors play a device's force. SPDX-License-Identifier: MIT */
 #ifndef KNURL_GODOT_RUMBLE_H
 #define KNURL_GODOT_RUMBLE_H
 

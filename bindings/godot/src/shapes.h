@@ -5,7 +5,7 @@
 
 #include "world.h"
 
-/* What a surface's shape follows from. */
+/* Everything that a surface's shape depends on. */
 typedef struct shape_key {
     GDObjectInstanceID mesh; /* 0: not to be shared */
     float rest[9], axis[3];  /* rounded, because decompositions of equal scales differ in their last bits */
@@ -15,7 +15,7 @@ typedef struct shape_key {
 
 shape_key shapes_key(const surface *s, const double rest[9], int slot);
 
-/* The shape for a key, which has a user in the device's scene; null if there is none. */
+/* The shape for a key, which has a user in the device's scene; or null. */
 shape *shapes_find(const shape_key *key);
 
 /* The id of a surface that has that shape. */

@@ -1,5 +1,5 @@
 extends Node3D
-## What is under the pointer, and how it feels: a ray on the haptic surfaces, which needs no
+## The surface under the pointer, and its grating: a ray on the haptic surfaces, which needs no
 ## colliders.
 
 @onready var device: KnurlDevice = $KnurlDevice

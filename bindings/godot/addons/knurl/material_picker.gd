@@ -40,7 +40,7 @@ static func make_button(grating: KnurlGrating) -> VBoxContainer:
 	return box
 
 
-## Where its numbers come from.
+## The source of its numbers.
 static func describe(material: Dictionary) -> String:
 	return "Period: %s. Depth: %s." % [material["period"], material["depth"]]
 

@@ -129,7 +129,7 @@ func _process(_delta: float) -> void:
 		RenderingServer.instance_geometry_set_material_overlay(_drawn_on, _material.get_rid())
 
 
-## What a node draws: one mesh, or null.
+## A node's drawn mesh, or null.
 func _mesh_of(node: GeometryInstance3D) -> Mesh:
 	if node is MeshInstance3D:
 		return (node as MeshInstance3D).mesh

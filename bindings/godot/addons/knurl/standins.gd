@@ -15,7 +15,7 @@ const BASES := {"KnurlGrating": "Resource", "KnurlSurface": "Node3D", "KnurlDevi
 const LOADER := "KnurlStandinLoader"
 
 
-## Whether a text scene or resource has to be converted.
+## True if a text scene or resource has to be converted.
 static func is_needed(text: String) -> bool:
 	return text.contains('type="Knurl')
 
@@ -95,7 +95,7 @@ static func list_classes(text: String) -> String:
 	return list.encode_to_text()
 
 
-## Puts the scripts where the engine finds them. Returns whether anything was written.
+## Puts the scripts where the engine finds them. Returns false if they were there.
 static func install() -> bool:
 	if FileAccess.file_exists(ACTIVE + LOADER + ".gd"):
 		return false
@@ -106,7 +106,7 @@ static func install() -> bool:
 	return true
 
 
-## Removes them. Returns whether there were any.
+## Removes them. Returns false if there were no scripts.
 static func remove() -> bool:
 	var folder := DirAccess.open(ACTIVE)
 	if folder == null:
@@ -126,7 +126,7 @@ static func write(path: String, text: String) -> void:
 	file.store_string(text)
 
 
-## Whether the add-on has a library for an export with these features.
+## True if the add-on has a library for an export with these features.
 static func has_library(features: PackedStringArray) -> bool:
 	var extension := ConfigFile.new()
 	if extension.load(EXTENSION) != OK:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 namespace Knurl
 {
-    /// <summary>What a <see cref="KnurlEffect"/> does. The numbers are those of Knurl's C interface.</summary>
+    /// <summary>Kinds of <see cref="KnurlEffect"/>. The numbers are those of Knurl's C interface.</summary>
     public enum EffectKind
     {
         /// <summary>Pulls to the object's position.</summary>

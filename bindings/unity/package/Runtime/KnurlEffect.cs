@@ -11,7 +11,7 @@ namespace Knurl
     [AddComponentMenu("Knurl/Knurl Effect")]
     public sealed class KnurlEffect : MonoBehaviour
     {
-        [SerializeField, Tooltip("What it does.")]
+        [SerializeField, Tooltip("The kind of effect.")]
         EffectKind kind = EffectKind.Spring;
 
         [SerializeField, Tooltip("Its axis in the object's own axes, of any length: along a line, across a plane, along "
@@ -33,7 +33,7 @@ namespace Knurl
         [SerializeField, Tooltip("Only devices feel it that have one of these layers too: a bit each.")]
         int layers = 1;
 
-        /// <summary>What it does. Default Spring.</summary>
+        /// <summary>The kind of effect. Default Spring.</summary>
         public EffectKind Kind
         {
             get { return kind; }

@@ -6,7 +6,7 @@ using UnityEngine;
 
 namespace Knurl
 {
-    /// <summary>The settings that a surface's shape in the scene follows from.</summary>
+    /// <summary>The settings on which a surface's shape in the scene depends.</summary>
     internal unsafe struct ShapeKey : IEquatable<ShapeKey>
     {
         const int Words = 14;
@@ -132,7 +132,7 @@ namespace Knurl
             }
         }
 
-        /// <summary>The mesh has changed: whoever reads it from now on gets a new shape.</summary>
+        /// <summary>The mesh has changed: surfaces that read it from now on get a new shape.</summary>
         internal void Forget(Mesh mesh)
         {
             var old = new List<ShapeKey>();
