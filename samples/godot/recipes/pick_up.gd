@@ -1,12 +1,12 @@
 extends Node3D
-## Picks up what is touched while a button of the device, or the space bar, is held. A click of
+## Holds the touched object while a button of the device, or the space bar, is held. A click of
 ## 40 ms marks the grip, a softer one the release.
 
 @onready var device: KnurlDevice = $KnurlDevice
 @onready var text: Label = $Hud/Text
 
 var held: Node3D
-var grip := Vector3.ZERO  # from the HIP to what is held
+var grip := Vector3.ZERO  # from the HIP to the held object
 
 
 func _ready() -> void:
@@ -21,10 +21,10 @@ func _unhandled_key_input(event: InputEvent) -> void:
 
 func set_grip(closed: bool) -> void:
 	var surface: KnurlSurface = device.get_touched_surface()
-	if closed and surface != null:
+	if closed and surface != null and held == null:
 		held = surface.get_parent()
 		grip = held.global_position - device.hip_position
-		surface.enabled = false  # the wall would push the hand away from what it carries
+		surface.enabled = false  # the wall would push the hand away from the held object
 		click(0.8)
 	elif not closed and held != null:
 		(held.get_node("KnurlSurface") as KnurlSurface).enabled = true
