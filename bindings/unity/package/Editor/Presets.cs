@@ -29,7 +29,7 @@ namespace Knurl.Editing
                 Units.Millimetres(preset.Amplitude) + ", " + Units.Number(preset.Stiffness) + " N/m";
         }
 
-        /// <summary>With where its numbers come from: "Ruler: period 1 mm: its marks; depth 0.05 mm, a guess".</summary>
+        /// <summary>With the source of its numbers: "Ruler: period 1 mm: its marks; depth 0.05 mm, a guess".</summary>
         internal static string Title(EverydayMaterial material)
         {
             return material.Title + ": period " + material.Period + "; depth " + material.Depth;
