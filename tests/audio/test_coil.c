@@ -55,7 +55,7 @@ static double sine(int tick, double hz) {
     return 1.0 + 0.5 * sin(2.0 * PI * hz * tick / 1000.0);
 }
 
-/* The spectrum of what is felt: the force of 1 kHz ticks. */
+/* The spectrum of the force of 1 kHz ticks. */
 TEST(a_coil_is_flat_from_10_to_400_hz_and_hides_the_ticks) {
     static float window[WINDOW];
     static const double frequencies[] = {10.0, 30.0, 100.0, 200.0, 300.0, 350.0, 400.0, 450.0};
@@ -70,6 +70,19 @@ TEST(a_coil_is_flat_from_10_to_400_hz_and_hides_the_ticks) {
         assert_true(hz > 350.0 || image < -38.0);
         knurl_audio_destroy(audio);
     }
+}
+
+static double weak(int tick, double hz) {
+    return 1.0 + 1e-4 * sin(2.0 * PI * hz * tick / 1000.0);
+}
+
+/* Its steps from sample to sample are shorter than the level below which a constant force is silent. */
+TEST(a_weak_and_slow_force_is_played_too) {
+    static float window[WINDOW];
+    knurl_audio *audio = make_coil(0.001);
+    play(audio, weak, 10.0, window);
+    assert_true(fabs(decibels(line_at(window, 10.0) / 1e-4)) < 0.5);
+    knurl_audio_destroy(audio);
 }
 
 /* A square wave of 50 Hz as a method plays it: 20 ticks a cycle, whose odd lines are 4/(20 sin(pi n/20)). */

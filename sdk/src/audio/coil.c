@@ -13,9 +13,10 @@
  * 650 Hz on. A longer window would be flat further, and later. */
 #define BETA 3.5
 
-#define HIGH_PASS_HZ 3.0  /* -0.4 dB at 10 Hz */
-#define SILENCE      1e-6 /* N */
-#define CROSSOVER_HZ 80.0 /* between a gamepad's slow, heavy motor and its fast, light one */
+#define HIGH_PASS_HZ 3.0   /* -0.4 dB at 10 Hz */
+#define SILENCE      1e-6  /* N */
+#define ROUNDING     1e-12 /* N: of a sample; a step below it is that of a constant force */
+#define CROSSOVER_HZ 80.0  /* between a gamepad's slow, heavy motor and its fast, light one */
 #define MEAN_S       0.025
 
 void knurl_coil_init(knurl_coil *coil, double sample_rate_hz) {
@@ -50,9 +51,10 @@ double knurl_coil_pull(knurl_coil *coil, double at) {
         weights += w;
     }
     const double input = sum / weights;
-    coil->output = coil->decay * coil->output + input - coil->before;
+    const double step = input - coil->before;
+    coil->output = coil->decay * coil->output + step;
     coil->before = input;
-    if (fabs(coil->output) < SILENCE) {
+    if (fabs(step) < ROUNDING && fabs(coil->output) < SILENCE) {
         coil->output = 0.0;
     }
     return coil->output;
@@ -74,7 +76,7 @@ static double pass(knurl_band *band, double x) {
     band->x[1] = band->x[0];
     band->x[0] = x;
     band->y[1] = band->y[0];
-    band->y[0] = fabs(y) < SILENCE * SILENCE ? 0.0 : y;
+    band->y[0] = fabs(y) < ROUNDING ? 0.0 : y;
     return y;
 }
 
