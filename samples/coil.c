@@ -1,8 +1,8 @@
-/* What a HIP feels, on a voice coil: raw samples of 16 bits at 48 kHz, mono, written as the ticks happen. A sound
+/* The force of a HIP on a voice coil: raw samples of 16 bits at 48 kHz, mono, written as the ticks happen. A sound
  * player sends them to a channel of a sound card that drives the coil, for example, with ALSA:
  *   coil /dev/stdout | aplay -D hw:1 -t raw -f S16_LE -r 48000 -c 1 --buffer-time=4000
- * usage: coil FILE [DEVICE]; by default the fake device strokes a grating. Runs for five seconds, and tells ten times a
- * second what a gamepad's two motors would do. SPDX-License-Identifier: MIT */
+ * usage: coil FILE [DEVICE]; by default the fake device strokes a grating. Runs for five seconds, and prints ten
+ * times a second the strengths for a gamepad's two motors. SPDX-License-Identifier: MIT */
 #include <knurl/knurl.h>
 
 #include <math.h>

@@ -45,7 +45,7 @@ typedef struct lab_case {
     int32_t method;   /**< KNURL_METHOD_S1, ... */
     uint32_t without; /**< KNURL_PROTECT_; default all: raw */
     int32_t bilateral; /**< 1: the lab's own law F = -K x - B (x - x one tick ago)/T instead of a scene's wall */
-    int32_t effect;    /**< KNURL_EFFECT_ at height 0 with K, B and the period as spacing, instead of a wall; 0: none */
+    int32_t effect;    /**< KNURL_EFFECT_ at height 0 with K, B and the period as spacing, instead of a wall; or 0 */
     int32_t wall;      /**< LAB_PLANE (default), LAB_FACETS, LAB_SMOOTH */
 } lab_case;
 

@@ -80,7 +80,7 @@ typedef struct stability_map {
     const char *grip;
     int32_t method; /**< of stability_methods */
     uint32_t without;
-    int32_t effect; /**< KNURL_EFFECT_ in place of a wall; 0: none */
+    int32_t effect; /**< KNURL_EFFECT_ in place of a wall, or 0 */
     int32_t wall;   /**< LAB_PLANE, ... */
 } stability_map;
 

@@ -91,7 +91,7 @@ static int32_t available(size_t index) {
     return -1;
 }
 
-/* Flat against curved walls, where most runaways are: the firm grip has none. */
+/* Flat against curved walls, in the grips that have most runaways: all but the firm one. */
 static int walls_at(size_t index, stability_map *map) {
     static const int32_t methods[] = {0, 2, 3}; /* flat, S2, bandlimited */
     const size_t walls = 3, grips_here = 2;

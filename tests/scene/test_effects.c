@@ -132,17 +132,11 @@ TEST(an_anchor_moves_evenly_and_carries_a_damper_along) {
     (void)tick_at(scene, 0.0, 0.0, 0.0);
     effects[0].anchor[0] = effects[1].anchor[0] = 0.005; /* 0.25 m/s */
     set(scene, effects, 2, 0.02);
-    for (int tick = 1; tick <= 30; tick++) {
-        const double anchor = fmin(0.005, 0.25 * 0.001 * tick);
-        const double drag = tick < 20 ? 2.0 * 0.25 : 0.0;
+    for (int tick = 1; tick <= 10; tick++) {
         const double still[3] = {0.0, 0.0, 0.0};
-        CHECK_CLOSE(tick_moving(scene, still, still).force[0], 200.0 * anchor + drag, 1e-9);
-        if (tick == 10) { /* turned back on the way: it goes on from where it is */
-            effects[0].anchor[0] = 0.0;
-            effects[1].anchor[0] = 0.0;
-            break;
-        }
+        CHECK_CLOSE(tick_moving(scene, still, still).force[0], 200.0 * 0.25 * 0.001 * tick + 2.0 * 0.25, 1e-9);
     }
+    effects[0].anchor[0] = effects[1].anchor[0] = 0.0; /* turned back on the way: it goes on from its place there */
     set(scene, effects, 2, 0.01);
     for (int tick = 1; tick <= 20; tick++) {
         const double anchor = fmax(0.0, 0.0025 - 0.25 * 0.001 * tick);
@@ -289,7 +283,7 @@ TEST(no_effect_is_felt_while_paused_absent_attenuated_or_without_a_number) {
     }
 }
 
-/* Whatever is accepted: the largest numbers, at the ends of the world. */
+/* The largest accepted numbers, at the largest coordinates. */
 TEST(the_largest_numbers_give_finite_forces) {
     for (int32_t kind = 1; kind <= KINDS; kind++) {
         SCOPED_SCENE *scene = free_scene();

@@ -1,4 +1,4 @@
-/* Edits of effects: what stays, what is refused, and their memory. SPDX-License-Identifier: MIT */
+/* Edits of effects: their continuity, refusals and memory. SPDX-License-Identifier: MIT */
 #include "effects.h"
 #include "support/ledger.h"
 

@@ -16,7 +16,6 @@ static int outcome(const char *device, const char *grip, double rate, int32_t ef
     c.settle = 1.5;
     c.effect = effect;
     c.stiffness = stiffness;
-    c.damping = damping;
     c.period = 0.01;
     c.press = effect == KNURL_EFFECT_DETENT ? 0.0 : 1.0;
     c.without = without;

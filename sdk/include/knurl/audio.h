@@ -1,4 +1,4 @@
-/* Knurl: what a HIP feels, for ears and for other actuators: sound from the same height map that is felt, or the force
+/* Knurl: a HIP's signal for ears and for other actuators: sound from the same height map that is felt, or the force
  * itself for voice coils and gamepads. The haptic thread queues each tick; the audio thread renders samples. Neither
  * waits for the other. The signal is mono, one for each HIP. SPDX-License-Identifier: MIT */
 #ifndef KNURL_AUDIO_H
@@ -12,7 +12,7 @@ extern "C" {
 
 typedef struct knurl_audio knurl_audio;
 
-/** What knurl_audio_fill() renders. */
+/** The signals that knurl_audio_fill() renders. */
 enum {
     KNURL_VOICE_EAR = 0, /**< the sound of the grating, for loudspeakers */
     KNURL_VOICE_COIL = 1 /**< the force, for voice coils and a gamepad's haptic channels */

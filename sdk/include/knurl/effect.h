@@ -50,11 +50,11 @@ KNURL_API knurl_result knurl_effect_prepare(int32_t kind, knurl_effect *effect);
  * at once. All other numbers count from the next tick on. The effects stay if the HIP is configured again.
  *
  * The sum passes the HIP's protections: a new effect's force grows at slew_rate, and the sum with the surfaces' force
- * stays within max_force and heat. With KNURL_PROTECT_PASSIVITY, stiffness and damping are held to what does not shake
- * a loosely held device: all stiffness is reduced by one factor if its sum in a direction is above 0.8 (viscous + 0.5 N
- * s/m)/(T/2 + delay) or max_stiffness (a Touch: 533 N/m), all damping if its sum is above 20 N s/m (less with long
- * delays), both at the device; ticks then have KNURL_TICK_PASSIVITY. Errors: KNURL_ERROR_ARGUMENT (which effect and
- * field, expected, found), KNURL_ERROR_MEMORY; the old effects stay then. [any thread but the haptic] */
+ * stays within max_force and heat. With KNURL_PROTECT_PASSIVITY, stiffness and damping are limited so that a loosely
+ * held device does not shake: all stiffness is reduced by one factor if its sum in a direction is above 0.8 (viscous +
+ * 0.5 N s/m)/(T/2 + delay) or max_stiffness (a Touch: 533 N/m), all damping if its sum is above 20 N s/m (less with
+ * long delays), both at the device; ticks then have KNURL_TICK_PASSIVITY. Errors: KNURL_ERROR_ARGUMENT (which effect
+ * and field, expected, found), KNURL_ERROR_MEMORY; the old effects stay then. [any thread but the haptic] */
 KNURL_API knurl_result knurl_scene_set_effects(knurl_scene *scene, uint32_t hip, const knurl_effect *effects,
                                                uint32_t count, double seconds);
 

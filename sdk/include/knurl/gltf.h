@@ -30,9 +30,9 @@ typedef struct knurl_gltf_options {
      * return value other than 0 cancels the load (KNURL_ERROR_CANCELLED). */
     int32_t (*progress)(void *user, double done);
     void *user; /**< passed to the callbacks */
-    /** Called for each wrong tag with its message, without the file's name, valid during the call. What has that tag is
-     * left out, counted in knurl_gltf_report.skipped, and the rest is loaded. Null: the first wrong tag fails the
-     * load. A skin or morph target on a tagged mesh counts as a wrong tag. */
+    /** Called for each wrong tag with its message, without the file's name, valid during the call. Surfaces with that
+     * tag are left out, counted in knurl_gltf_report.skipped, and the rest is loaded. Null: the first wrong tag fails
+     * the load. A skin or morph target on a tagged mesh counts as a wrong tag. */
     void (*wrong_tag)(void *user, const char *message);
 } knurl_gltf_options;
 

@@ -1,5 +1,5 @@
-/* What a HIP feels, as a signal. The haptic thread writes a ring of ticks, the audio thread reads it: each tick is a
- * step over the grating and a loudness, for a coil also a force. SPDX-License-Identifier: MIT */
+/* The sound or the force of a HIP, as a signal. The haptic thread writes a ring of ticks, the audio thread reads it:
+ * each tick is a step over the grating and a loudness, for a coil also a force. SPDX-License-Identifier: MIT */
 #include <knurl/audio.h>
 
 #include "audio/coil.h"

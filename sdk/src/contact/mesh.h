@@ -65,7 +65,7 @@ typedef struct knurl_mesh {
     int32_t has_axis;          /* 1: x runs along `axis`, not along tangents or uvs */
     double axis[3];            /* unit */
     double uv_scale[2];        /* su, sv: means of |dP/du|, |dP/dv|, m (uv_scale.c); 0 without uvs */
-    double collapsed;          /* share of the area in which uvs have none */
+    double collapsed;          /* share of the area whose uvs have no area */
     double uneven;             /* share of the area in which ridges are more than an octave off, or without uvs */
     double stretch[2][3]; /* min, mean, max over area of su / |dP/du|, and of sv / |dP/dv|; with an axis, of the length
                              of its tangential part, and 1; 1 without both */

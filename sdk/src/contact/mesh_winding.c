@@ -181,7 +181,7 @@ static void turn_over(knurl_mesh *mesh, const uint8_t *marks) {
 
 /* The same in a mesh that is not clean, and the minimum number of triangles: a set may be a piece of a larger one. Of
  * 2,000 rooms of touching solids with 1, 2, 3 or 4 adjacent triangles reversed, this mends 96, 95, 94 and 91 %, and
- * turns a right triangle over in none. A minimum of 3 would mend 99 % of the first, but turn right ones over in 0, 6,
+ * never turns a right triangle over. A minimum of 3 would mend 99 % of the first, but turn right ones over in 0, 6,
  * 25 and 20 of the others. Winding numbers (Jacobson et al. 2013) of the rest of the mesh do so in 12, 11, 14: solids
  * in one mesh are open where they touch. */
 #define UNDECIDED_PIECE 0.25

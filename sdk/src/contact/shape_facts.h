@@ -21,7 +21,7 @@ typedef struct knurl_shape_facts {
     int32_t has_computed_normals;
     double bulge;              /* m: greatest distance of the felt surface from the triangles */
     uint32_t projection_seams; /* edges between triangles whose coordinates are projected differently */
-    double collapsed;          /* share of the area in which uvs have none */
+    double collapsed;          /* share of the area whose uvs have no area */
     double uneven;             /* share of the area in which ridges are more than an octave off, or without uvs */
     double error;              /* m: largest distance of the model from its description */
     double uv_scale[2];        /* m for each unit of u and v, if they are the coordinates; otherwise 0 */

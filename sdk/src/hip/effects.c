@@ -115,7 +115,7 @@ static void set_bounds(knurl_effects *effects) {
     }
 }
 
-/* m: from where the anchor is at `time` to where it will be; 0 once it is there. */
+/* m: the way that an anchor has still to go at `time`. */
 static void way_left(const knurl_placed_effect *placed, double time, double way[3]) {
     vec3_scale(knurl_max(placed->end_time - time, 0.0), placed->velocity, way);
 }

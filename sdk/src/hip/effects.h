@@ -20,7 +20,7 @@ typedef struct knurl_effects {
     knurl_placed_effect list[KNURL_EFFECTS_MAX];
 } knurl_effects;
 
-/* What is left of their stiffness and damping, 0 to 1. */
+/* The shares of their stiffness and damping that are played, 0 to 1. */
 typedef struct knurl_effect_shares {
     double stiffness, damping;
 } knurl_effect_shares;
