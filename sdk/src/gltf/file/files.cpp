@@ -75,7 +75,7 @@ const std::vector<unsigned char> &Sources::find(const std::string &uri, uint64_t
         return texts_.emplace_back(data_uri_bytes(uri));
     }
     if (!resources.folder)
-        throw Failure(KNURL_ERROR_IO, "an external file cannot be read, because no folder was given: embed the buffer");
+        throw Failure(KNURL_ERROR_IO, "an external file cannot be read, because no folder was given: embed it");
     const Place place = locate(uri, *resources.folder);
     auto known = files_.find(place.file);
     if (known == files_.end()) {
