@@ -27,7 +27,7 @@ static knurl_result tick(knurl_scene *scene, const double p[6], double height, u
     return knurl_scene_tick(scene, 0, &input, output);
 }
 
-/* Prints what is felt at a point. */
+/* Prints how far the proxy is from a point (m), and the cycles there. */
 static knurl_result feel(knurl_scene *scene, double p[6]) {
     knurl_tick_output output;
     knurl_surface_point point;

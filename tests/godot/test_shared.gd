@@ -42,7 +42,7 @@ func smooth_surface(mesh: Mesh, at: Vector3) -> Node3D:
 	return s
 
 
-# Height of what a ray from above hits.
+# Height of the first hit of a ray from above.
 func height(d: Node3D, x: float) -> float:
 	var hit: Dictionary = d.cast_ray(Vector3(x, 0.1, 0), Vector3(x, -0.1, 0))
 	return hit.position.y if not hit.is_empty() else -1.0

@@ -1,6 +1,6 @@
 @tool
 extends RefCounted
-## Where Knurl has no library, scripts take the place of its classes, so that scenes load, scripts
+## On systems without the library, scripts take the place of its classes, so that scenes load, scripts
 ## parse and the game plays, with nothing to feel. The scripts in [code]standins/[/code] are ignored
 ## by the engine, because a script cannot have the name of a class that exists. They are used by
 ## [br]- the editor on a system without a library, which copies them into [constant ACTIVE];

@@ -1,6 +1,6 @@
 class_name KnurlStandinLoader
 extends ResourceFormatLoader
-## Loads text scenes and resources that name Knurl's classes, where Knurl has no library. The engine
+## Loads text scenes and resources that name Knurl's classes, on systems without the library. The engine
 ## creates loaders by their class's name. Not a tool: the editor keeps unknown classes as they are.
 
 const Standins := preload("res://addons/knurl/standins.gd")
