@@ -14,7 +14,7 @@ MODULES = {
     "device": (16, 178, 146, 456, "any device"),
     "scene": (172, 178, 928, 508, "folders surface, proxy, guard, hip, scene, stroke"),
     "motion": (16, 472, 146, 566, "positions to speeds"),
-    "contact": (172, 550, 752, 866, "where a HIP touches"),
+    "contact": (172, 550, 752, 886, "contact with one surface"),
     "grating": (782, 550, 928, 666, "a height from a speed"),
     "vibration": (782, 690, 928, 774, "square waves in time"),
     "base": (16, 896, 928, 964, "used by all modules"),
@@ -29,25 +29,25 @@ MODULE_ARROWS = {("gltf", "scene"): 860, ("loop", "device"): 81, ("loop", "scene
 # Box: its middle, its top, its width, its title, the line below it, the units in it.
 BOXES = {
     "tick": (675, 206, 330, "tick", "the steps below, one by one", ["scene/tick"]),
-    "edits": (330, 206, 180, "edits, questions", "from other threads",
+    "edits": (330, 206, 180, "edits, queries", "from other threads",
               ["scene/edit", "scene/check", "scene/scene_hips", "scene/surface_info", "scene/surface_queries",
                "scene/find_closest", "stroke/walk", "stroke/lay"]),
-    "state": (675, 288, 100, "scene, hip", "all that is kept", ["scene/scene", "hip/hip", "hip/hip_workspace", "hip/response"]),
-    "broad_phase": (238, 372, 108, "broad_phase", "what is near", ["surface/broad_phase"]),
-    "candidates": (363, 372, 108, "candidates", "what may be met", ["proxy/candidate", "proxy/candidates", "proxy/hip_clock"]),
+    "state": (675, 288, 100, "scene, hip", "the state", ["scene/scene", "hip/hip", "hip/hip_workspace", "hip/response"]),
+    "broad_phase": (238, 372, 108, "broad_phase", "nearby surfaces", ["surface/broad_phase"]),
+    "candidates": (363, 372, 108, "candidates", "surfaces in reach", ["proxy/candidate", "proxy/candidates", "proxy/hip_clock"]),
     "contact_update": (488, 372, 108, "contact_update", "begin, hold, end", ["proxy/contact_update"]),
     "force_law": (613, 372, 108, "force_law", "F = K (H - z)", ["hip/effects", "hip/even", "hip/force_law", "hip/friction", "hip/response"]),
     "guard": (738, 372, 108, "guard", "first and last", ["guard/guard", "guard/last_stage"]),
     "snapshot": (863, 372, 108, "snapshot", "for other threads", ["hip/snapshot"]),
-    "limits": (738, 456, 190, "wall, passivity, bounds, heat", "nothing runs away or burns",
+    "limits": (738, 456, 190, "wall, passivity, bounds, heat", "stability, motors' heat",
                ["guard/wall", "guard/passivity", "guard/bounds", "guard/heat", "guard/hip_facts"]),
     "joint": (270, 456, 130, "joint_contact", "where surfaces meet",
               ["proxy/joint_contact", "proxy/joint_search", "proxy/joint_faces", "proxy/god_object",
                "proxy/active_faces", "proxy/obstacles", "proxy/contacts", "proxy/felt", "proxy/felt_parts"]),
-    "surfaces": (492, 456, 270, "surfaces", "what they are, feel like, where they move",
+    "surfaces": (492, 456, 270, "surfaces", "shape, material, motion",
                  ["surface/surfaces", "surface/surface", "surface/surface_frame", "surface/record", "surface/pose",
                   "surface/epoch"]),
-    "shape": (462, 578, 210, "shape", "plane or mesh? asked here, once", ["contact/shape", "contact/shape_facts"]),
+    "shape": (462, 578, 210, "shape", "a plane or a mesh", ["contact/shape"]),
     "make_plane": (270, 644, 160, "plane_from_mesh", "a sheet and its outline",
                    ["contact/plane_from_mesh", "contact/outline", "contact/outline_overlap", "contact/edge_table",
                     "contact/sheet", "contact/sheet_coordinates"]),
@@ -59,9 +59,9 @@ BOXES = {
     "mesh_frame": (462, 702, 160, "mesh_frame", "x, y, coordinates", ["contact/mesh_frame", "contact/projection"]),
     "mesh_feel": (462, 760, 160, "mesh_feel", "curved patches", ["contact/mesh_feel", "contact/patch", "contact/mesh_normals", "contact/mesh_crease", "contact/mesh_facets"]),
     "mesh_walk": (654, 702, 160, "mesh_walk", "downhill to the nearest", ["contact/mesh_walk"]),
-    "mesh_query": (654, 760, 160, "mesh_query", "what is nearest, crossed", ["contact/mesh_query", "contact/mesh_cast", "contact/mesh_search",
+    "mesh_query": (654, 760, 160, "mesh_query", "nearest point, crossing", ["contact/mesh_query", "contact/mesh_cast", "contact/mesh_search",
                    "contact/leaf_bound"]),
-    "contact": (254, 818, 128, "contact", "question and answer", ["contact/contact", "contact/visits"]),
+    "contact": (254, 818, 128, "contact", "query and result", ["contact/contact", "contact/visits", "contact/shape_facts"]),
     "bvh": (390, 818, 104, "bvh", "a tree of boxes", ["contact/bvh", "contact/bvh_search", "contact/float4"]),
     "mesh": (516, 818, 108, "mesh, corner", "a corner table", ["contact/mesh", "contact/corner"]),
     "closest_point": (665, 818, 138, "closest_point", "of one triangle", ["contact/closest_point", "contact/facet"]),
@@ -69,7 +69,7 @@ BOXES = {
 # The path of a force: the modules of a tick's steps, in order.
 WAY = ["device", "loop", "tick", "motion", "broad_phase", "candidates", "contact_update", "contact", "force_law",
        "grating", "vibration", "guard", "snapshot"]
-LEGEND = ["1 to 13: the way of", "a force; then back", "to the device", "", "blue: what a tick runs", "", "arrow: uses"]
+LEGEND = ["1 to 13: the path of", "a force; then back", "to the device", "", "blue: what a tick runs", "", "arrow: uses"]
 
 STYLE = """
 text { font: 12px system-ui, -apple-system, "Segoe UI", "DejaVu Sans", sans-serif; fill: #1f2328; }

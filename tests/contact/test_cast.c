@@ -44,7 +44,10 @@ TEST(a_triangle_reaches_beyond_each_edge_by_the_seam) {
             const double length = hypot(b[0] - a[0], b[1] - a[1]);
             for (int step = 1; step < 10; step++) {
                 for (int side = -1; side <= 1; side++) {
-                    const double off = (side < 0 ? -2.0 : side ? 1.5 : 0.5) * p.mesh->seam / length; /* outwards */
+                    const double off = (side < 0 ? -2.0
+                                        : side   ? 1.5
+                                                 : 0.5) *
+                                       p.mesh->facts.seam / length; /* outwards */
                     const double xy[2] = {a[0] + 0.1 * step * (b[0] - a[0]) + off * (b[1] - a[1]),
                                           a[1] + 0.1 * step * (b[1] - a[1]) - off * (b[0] - a[0])};
                     assert_int_equal(cast(&p, way, xy, 0.0, down, 0, &hit), side < 1);
@@ -68,9 +71,9 @@ TEST(a_sliver_reaches_beyond_its_tips_by_the_seam_too) {
         probe p = make(sliver, way);
         knurl_cast_hit hit;
         for (int side = -1; side <= 1; side += 2) {
-            const double near[2] = {side * (0.05 + 0.5 * p.mesh->seam), 0.0};
-            const double beyond[2] = {side * (0.05 + 2.0 * p.mesh->seam), 0.0};
-            const double above[2] = {0.02, side * (2e-7 + 2.0 * p.mesh->seam)};
+            const double near[2] = {side * (0.05 + 0.5 * p.mesh->facts.seam), 0.0};
+            const double beyond[2] = {side * (0.05 + 2.0 * p.mesh->facts.seam), 0.0};
+            const double above[2] = {0.02, side * (2e-7 + 2.0 * p.mesh->facts.seam)};
             assert_int_equal(cast(&p, way, near, 0.01, down, 0, &hit), 1);
             assert_int_equal(cast(&p, way, beyond, 0.01, down, 0, &hit), 0);
             assert_int_equal(cast(&p, way, above, 0.01, down, 0, &hit), 0);

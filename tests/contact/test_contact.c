@@ -23,8 +23,8 @@ TEST(y_of_a_plane_is_a_quarter_turn_on_from_its_axis) {
     CHECK_CLOSE(plane.map[0][1], 0.48, 1e-15);
     CHECK_CLOSE(plane.map[1][0], -0.8, 1e-15);
     CHECK_CLOSE(plane.map[1][1], 0.6, 1e-15);
-    CHECK_CLOSE(plane.stretch[0][1], 0.6, 1e-15);
-    CHECK_CLOSE(plane.stretch[1][1], 1.0, 1e-15);
+    CHECK_CLOSE(plane.facts.stretch[0][1], 0.6, 1e-15);
+    CHECK_CLOSE(plane.facts.stretch[1][1], 1.0, 1e-15);
 }
 
 TEST(plane_holds_until_the_hip_is_in_front_again) {

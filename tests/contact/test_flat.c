@@ -11,7 +11,7 @@ TEST(rectangular_sheet_becomes_a_rectangle_about_its_middle) {
     assert_int_equal(o.plane->triangle_count, 64);
     CHECK_CLOSE(o.plane->half_extents[0], 4.0 * CELL, 1e-12);
     CHECK_CLOSE(o.plane->half_extents[1], 2.0 * CELL, 1e-12);
-    CHECK_CLOSE(o.plane->flatness, 0.0, 1e-15);
+    CHECK_CLOSE(o.plane->facts.error, 0.0, 1e-15);
     const double middle[3] = {4.0 * CELL, 2.0 * CELL, 0.0};
     CHECK_CLOSE(distance3(o.position, middle), 0.0, 1e-12);
     for (int i = 0; i < 9; i++) {
@@ -153,8 +153,8 @@ TEST(duplicates_slivers_and_unused_vertices_change_nothing) {
     assert_non_null(o.plane);
     assert_int_equal(o.plane->edge_count, 6);
     assert_int_equal(o.plane->triangle_count, 12);
-    assert_int_equal(o.plane->dropped, 4);
-    assert_int_equal(o.plane->reversed_twins, 0);
+    assert_int_equal(o.plane->facts.dropped, 4);
+    assert_int_equal(o.plane->facts.reversed_twins, 0);
     assert_int_equal(o.plane->double_sided, 0);
     assert_string_equal(o.why, "plane: a flat mesh with its outline");
     CHECK_CLOSE(flat_area(o.plane, &length), 6.0 * CELL * CELL, 1e-12);
@@ -175,8 +175,8 @@ TEST(sheet_of_reversed_twins_is_double_sided) {
     assert_non_null(o.plane);
     assert_int_equal(o.plane->edge_count, 6);
     assert_int_equal(o.plane->triangle_count, 12);
-    assert_int_equal(o.plane->reversed_twins, 12);
-    assert_int_equal(o.plane->dropped, 1);
+    assert_int_equal(o.plane->facts.reversed_twins, 12);
+    assert_int_equal(o.plane->facts.dropped, 1);
     assert_int_equal(o.plane->double_sided, 1);
     CHECK_CLOSE(o.rotation[8], 1.0, 1e-12); /* the first triangle determines the front */
     forget(&o);
@@ -200,7 +200,7 @@ TEST(twins_give_the_front_its_own_uvs_whichever_comes_first) {
     }
     outcome o = decide(&both);
     assert_non_null(o.plane);
-    assert_int_equal(o.plane->reversed_twins, 8);
+    assert_int_equal(o.plane->facts.reversed_twins, 8);
     CHECK_CLOSE(o.plane->map[0][0], 1.0, 1e-9);
     CHECK_CLOSE(o.plane->map[0][2], CELL, 1e-9);
     forget(&o);
@@ -238,13 +238,13 @@ TEST(sheet_is_flat_to_a_micrometre_and_to_1e5th_of_its_size) {
         if (cases[i].flat) {
             outcome o = decide(&s);
             assert_non_null(o.plane);
-            assert_true(o.plane->flatness >= 0.25 * bump && o.plane->flatness <= 0.51 * bump);
+            assert_true(o.plane->facts.error >= 0.25 * bump && o.plane->facts.error <= 0.51 * bump);
             const double normal[3] = {o.rotation[2], o.rotation[5], o.rotation[8]};
             for (uint32_t v = 0; v < s.vertex_count; v++) { /* it is the bound that it is reported as */
                 double p[3];
                 shape_get(&s, v, p);
                 add3(p, -1.0, o.position, p);
-                assert_true(fabs(dot3(p, normal)) <= 1.0001 * o.plane->flatness);
+                assert_true(fabs(dot3(p, normal)) <= 1.0001 * o.plane->facts.error);
             }
             forget(&o);
             shape_free(&s);
@@ -330,14 +330,14 @@ static void check_bowed(double bow) {
     outcome o = decide(&s);
     assert_non_null(o.plane);
     assert_in_range(o.plane->edge_count, 7, 20);
-    assert_true(o.plane->flatness > 1e-8 && o.plane->flatness < 1e-6);
+    assert_true(o.plane->facts.error > 1e-8 && o.plane->facts.error < 1e-6);
     for (uint32_t v = 201; v < 402; v++) {
         double p[3];
         shape_get(&s, v, p);
         add3(p, -1.0, o.position, p);
         const double turned[2] = {p[0] * o.rotation[0] + p[1] * o.rotation[3],
                                   p[0] * o.rotation[1] + p[1] * o.rotation[4]};
-        assert_true(flat_to_outline(o.plane, turned) <= 1.0001 * o.plane->flatness);
+        assert_true(flat_to_outline(o.plane, turned) <= 1.0001 * o.plane->facts.error);
     }
     forget(&o);
 }

@@ -90,8 +90,8 @@ TEST(without_axis_tangents_and_uvs_coordinates_are_projected_along_the_nearest_a
     }
     CHECK_CLOSE(o.plane->x[0], 1.0, 0.0);
     CHECK_CLOSE(o.rotation[0], -1.0, 1e-6); /* x runs along u */
-    CHECK_CLOSE(o.plane->stretch[0][1], 1.0, 1e-6);
-    CHECK_CLOSE(o.plane->stretch[1][1], 0.75 / sqrt(0.75 * 0.75 + 0.25), 1e-6);
+    CHECK_CLOSE(o.plane->facts.stretch[0][1], 1.0, 1e-6);
+    CHECK_CLOSE(o.plane->facts.stretch[1][1], 0.75 / sqrt(0.75 * 0.75 + 0.25), 1e-6);
     forget(&o);
 }
 
@@ -109,7 +109,7 @@ TEST(axis_gives_metres_from_the_meshs_origin) {
     CHECK_CLOSE(o.rotation[3], 0.64 / length, 1e-12);
     CHECK_CLOSE(o.plane->x[0], 1.0, 0.0);
     for (int i = 0; i < 3; i++) {
-        CHECK_CLOSE(o.plane->stretch[0][i], length, 1e-12);
+        CHECK_CLOSE(o.plane->facts.stretch[0][i], length, 1e-12);
     }
     CHECK_CLOSE(o.plane->map[0][0], length, 1e-12);
     CHECK_CLOSE(o.plane->map[0][2], dot3(o.position, axis), 1e-12); /* with the offset of 0.25 m along z */
@@ -133,6 +133,6 @@ TEST(tangents_alone_give_no_coordinates) {
     assert_int_equal(o.plane->has_coordinates, 0);
     assert_memory_equal(o.plane->map, nothing, sizeof nothing);
     CHECK_CLOSE(o.rotation[3], 1.0, 1e-12); /* its x is the mesh's y */
-    CHECK_CLOSE(o.plane->stretch[0][1], 1.0, 0.0);
+    CHECK_CLOSE(o.plane->facts.stretch[0][1], 1.0, 0.0);
     forget(&o);
 }

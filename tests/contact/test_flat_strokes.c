@@ -28,7 +28,7 @@ static pair pair_of(const knurl_mesh_desc *desc, const double *axis) {
         return p;
     }
     p.plane.plane = *p.made;
-    p.tolerance = 1e-7 + p.made->flatness;
+    p.tolerance = 1e-7 + p.made->facts.error;
     return p;
 }
 
@@ -62,8 +62,8 @@ static void check_same(const pair *p) {
     flat_mesh_frame(p->mesh.mesh, p->axis, c, mesh_x, mesh_coordinates);
     CHECK_CLOSE(distance3(proxy, c->proxy), 0.0, p->tolerance);
     CHECK_CLOSE(flat->z, c->z, p->tolerance);
-    CHECK_CLOSE(distance3(normal, c->normal), 0.0, p->made->flatness > 1e-9 ? 2e-4 : 1e-7);
-    CHECK_CLOSE(distance3(x, mesh_x), 0.0, p->made->flatness > 1e-9 ? 1e-4 : 1e-7);
+    CHECK_CLOSE(distance3(normal, c->normal), 0.0, p->made->facts.error > 1e-9 ? 2e-4 : 1e-7);
+    CHECK_CLOSE(distance3(x, mesh_x), 0.0, p->made->facts.error > 1e-9 ? 1e-4 : 1e-7);
     /* a mesh's y turns with each triangle's own normal: by an axis, on the lever of the distance from its origin */
     const double turned = distance3(x, mesh_x) + distance3(normal, c->normal);
     const double lever = p->axis ? length3(c->proxy) * turned : 0.0;
@@ -215,7 +215,7 @@ TEST(turned_sheet_far_from_the_origin_is_felt_as_its_mesh) {
         const knurl_mesh_desc desc = shape_desc(&s);
         const double axis[3] = {0.48, -0.6, 0.64};
         pair p = pair_of(&desc, axis);
-        assert_true(p.made->flatness > 1e-10);
+        assert_true(p.made->facts.error > 1e-10);
         assert_int_equal(p.made->edge_count, 32);
         pair_free(&p);
         check_all_strokes(&desc, axis, 110 + 10 * i);

@@ -77,7 +77,7 @@ TEST(double_layers_hold_across_every_border) {
         }
         shape both = shape_join(front > 0 ? &top : &bottom, front > 0 ? &bottom : &top);
         probe p = probe_shape(&both);
-        assert_int_equal(p.mesh->reversed_twins, 128);
+        assert_int_equal(p.mesh->facts.reversed_twins, 128);
         p.query.double_sided = p.mesh->double_sided;
         stroke_over(&p, 0.001);
         probe_free(&p);
@@ -110,7 +110,7 @@ TEST(the_larger_area_is_the_front) {
         memcpy(&s.indices[small ? 0 : 3], (const uint32_t[3]){0, 1, 2}, 3 * sizeof(uint32_t)); /* faces up */
         memcpy(&s.indices[small ? 3 : 0], (const uint32_t[3]){0, 1, 3}, 3 * sizeof(uint32_t)); /* faces down */
         probe p = probe_shape(&s);
-        assert_int_equal(p.mesh->turned, 1);
+        assert_int_equal(p.mesh->facts.turned, 1);
         (void)probe_to(&p, 0.002, 0.0, 0.001);
         assert_true(probe_to(&p, 0.002, 0.0, -0.001));
         probe_free(&p);
@@ -260,7 +260,7 @@ TEST(soup_of_everything_stays_finite_and_on_the_mesh) {
                 const double *w = p.contact.weights;
                 const int is_on_edge = w[0] <= 0.0 || w[1] <= 0.0 || w[2] <= 0.0; /* it may be in front of a fold */
                 CHECK_CLOSE(triangle_distance((const double (*)[3])t.corners, p.contact.proxy), 0.0,
-                            is_on_edge ? 2.0 * p.mesh->seam : 1e-12);
+                            is_on_edge ? 2.0 * p.mesh->facts.seam : 1e-12);
                 assert_true(isfinite(p.contact.z) && fabs(p.contact.z) < 0.3);
             }
         }

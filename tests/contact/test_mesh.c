@@ -20,8 +20,8 @@ TEST(triangles_without_area_are_dropped_and_counted) {
     assert_int_equal(knurl_mesh_create(&heap, &desc, &mesh), KNURL_OK);
     assert_int_equal(mesh->triangle_count,
                      1); /* a corner twice, three on a line, two in one place, a second one: gone */
-    assert_int_equal(mesh->dropped, 4);
-    assert_int_equal(mesh->reversed_twins, 0);
+    assert_int_equal(mesh->facts.dropped, 4);
+    assert_int_equal(mesh->facts.reversed_twins, 0);
     check_hierarchy(mesh);
     assert_true(knurl_mesh_closest(mesh, inside, 0.01, NULL, NULL, &found));
     CHECK_CLOSE(found.proxy[2], 0.0, 1e-12);
@@ -41,7 +41,7 @@ TEST(triangles_thinner_than_a_millionth_of_their_longest_edge_are_dropped) {
                 s.indices[v] = v;
             }
             probe p = probe_shape(&s);
-            assert_int_equal(p.mesh->dropped, !is_felt);
+            assert_int_equal(p.mesh->facts.dropped, !is_felt);
             probe_free(&p);
         }
     }
@@ -85,13 +85,13 @@ TEST(twins_are_dropped_and_reversed_ones_make_it_double_sided) {
     probe two = probe_shape(&layers);
     assert_int_equal(two.mesh->triangle_count, 40);
     assert_int_equal(two.mesh->vertex_count, 30);
-    assert_int_equal(two.mesh->dropped, 40);
-    assert_int_equal(two.mesh->reversed_twins, 40);
+    assert_int_equal(two.mesh->facts.dropped, 40);
+    assert_int_equal(two.mesh->facts.reversed_twins, 40);
     assert_int_equal(two.mesh->double_sided, 1);
     check_hierarchy(two.mesh);
     probe_free(&two);
     probe one = probe_shape(&sheet);
-    assert_int_equal(one.mesh->dropped + one.mesh->reversed_twins, 0);
+    assert_int_equal(one.mesh->facts.dropped + one.mesh->facts.reversed_twins, 0);
     assert_int_equal(one.mesh->double_sided, 0);
     probe_free(&one);
 }

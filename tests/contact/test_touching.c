@@ -109,12 +109,12 @@ static uint32_t check_count(shape *s) {
     }
     for (uint32_t i = 0; i < count; i++) {
         for (uint32_t j = 0; j < i; j++) {
-            expected += (uint32_t)do_touch(&all[i], &all[j], p.mesh->seam);
+            expected += (uint32_t)do_touch(&all[i], &all[j], p.mesh->facts.seam);
         }
     }
     assert_true(expected < 4 * count); /* below the limit of counting */
     assert_int_equal(knurl_mesh_count_touching(p.mesh), expected);
-    assert_int_equal(p.mesh->touching, expected);
+    assert_int_equal(p.mesh->facts.touching, expected);
     free(all);
     probe_free(&p);
     return expected;
@@ -215,7 +215,7 @@ TEST(the_seam_grows_with_the_size_and_with_the_distance_from_the_origin) {
         probe p = probe_shape(&box);
         const double farthest = fmax(half[0], fabs(sizes[i][1]) + half[1]);
         const double expected = fmax(1e-7, 2e-6 * length3(half)) + farthest / 4194304.0;
-        CHECK_CLOSE(p.mesh->seam, expected, 1e-4 * expected);
+        CHECK_CLOSE(p.mesh->facts.seam, expected, 1e-4 * expected);
         probe_free(&p);
     }
 }

@@ -4,6 +4,7 @@
 #define KNURL_SRC_MESH_H
 
 #include "contact/bvh.h"
+#include "contact/shape_facts.h"
 
 #include <knurl/contact.h>
 
@@ -49,26 +50,12 @@ typedef struct knurl_mesh {
     uint32_t triangle_count;
     uint32_t node_count;
     uint32_t non_manifold_count;
-    uint32_t dropped;        /* triangles dropped because they have no area or are duplicates */
-    uint32_t reversed_twins; /* triangles dropped because another has the same corners with opposite winding */
-    uint32_t turned;         /* triangles turned over to face like the rest of their connected component */
-    uint32_t mixed;          /* triangles that still face against the rest of their component */
-    int32_t double_sided;    /* 1: more than a few have reversed twins, or no front was found */
-    double seam;             /* m: edges side by side within this distance touch */
-    uint32_t touching;       /* pairs of triangles that touch, except along a shared edge */
-    uint32_t curved;         /* triangles that are felt curved */
-    uint32_t bad_normals;    /* triangles that are felt flat because their normals do not describe a surface */
-    int32_t has_computed_normals;
-    double bulge;              /* m: greatest distance of the felt surface from the triangles */
-    int32_t is_projected;      /* 1: coordinates are positions (projection.h), without uvs and tangents */
-    uint32_t projection_seams; /* edges between triangles with different projections */
-    int32_t has_axis;          /* 1: x runs along `axis`, not along tangents or uvs */
-    double axis[3];            /* unit */
-    double uv_scale[2];        /* su, sv: means of |dP/du|, |dP/dv|, m (uv_scale.c); 0 without uvs */
-    double collapsed;          /* share of the area whose uvs have no area */
-    double uneven;             /* share of the area in which ridges are more than an octave off, or without uvs */
-    double stretch[2][3]; /* min, mean, max over area of su / |dP/du|, and of sv / |dP/dv|; with an axis, of the length
-                             of its tangential part, and 1; 1 without both */
+    int32_t double_sided; /* 1: more than a few have reversed twins, or no front was found */
+    int32_t is_projected; /* 1: coordinates are positions (projection.h), without uvs and tangents */
+    int32_t has_axis;     /* 1: x runs along `axis`, not along tangents or uvs */
+    double axis[3];       /* unit */
+    double uv_scale[2];   /* su, sv: means of |dP/du|, |dP/dv|, m (uv_scale.c); 0 without uvs */
+    knurl_shape_facts facts;
     knurl_mesh_facets facets; /* no edges: not counted yet. Guarded by the scene's lock */
     uint32_t other_users;     /* atomic: shapes that share it, not counting the first */
 } knurl_mesh;

@@ -139,14 +139,14 @@ static knurl_result keep_triangles(draft *d) {
         area += duplicate == 0 ? size : 0.0;
         doubled += duplicate < 0 ? size : 0.0;
         mesh->triangle_count += duplicate == 0;
-        mesh->dropped += duplicate > 0;
-        mesh->reversed_twins += duplicate < 0;
+        mesh->facts.dropped += duplicate > 0;
+        mesh->facts.reversed_twins += duplicate < 0;
     }
     mesh->double_sided = doubled > FEW_TWINS * area;
     knurl_heap_free(d->heap, table);
     if (mesh->triangle_count == 0) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "mesh: expected a triangle with an area, found %u without",
-                          (unsigned)mesh->dropped);
+                          (unsigned)mesh->facts.dropped);
     }
     return KNURL_OK;
 }
@@ -276,8 +276,8 @@ static knurl_result build_mesh(draft *d) {
         result = knurl_mesh_pack_normals(d->heap, d->desc, d->corners, d->mesh);
     }
     if (!result) {
-        d->mesh->seam = seam_of(d->mesh);
-        d->mesh->touching = knurl_mesh_count_touching(d->mesh);
+        d->mesh->facts.seam = seam_of(d->mesh);
+        d->mesh->facts.touching = knurl_mesh_count_touching(d->mesh);
         result = knurl_mesh_unify_winding(d->heap, d->mesh);
     }
     if (!result) {

@@ -32,7 +32,7 @@ static int is_near_triangle(const double corners[3][3], const double p[3], const
 
 /* Bounding box of a cast from its start to a point on it. */
 static void bound(const knurl_mesh *mesh, const knurl_cast *cast, const double to[3], double low[3], double high[3]) {
-    knurl_bvh_bound(cast->from, to, mesh->seam + KNURL_CAST_SLACK, low, high);
+    knurl_bvh_bound(cast->from, to, mesh->facts.seam + KNURL_CAST_SLACK, low, high);
 }
 
 /* 1 if a segment hits a triangle before `hit`, which is then replaced. */
@@ -61,7 +61,7 @@ static int cast_at(const knurl_mesh *mesh, uint32_t triangle, const knurl_cast *
     vec3_cross(cross, from, across);
     const double inside[2] = {vec3_dot(across, ac), -vec3_dot(across, ab)};
     if (!(inside[0] >= 0.0 && inside[1] >= 0.0 && inside[0] + inside[1] <= cross2) &&
-        !is_near_triangle((const double (*)[3])corners, point, inside, cross2, mesh->seam)) {
+        !is_near_triangle((const double (*)[3])corners, point, inside, cross2, mesh->facts.seam)) {
         return 0;
     }
     const double size = sqrt(cross2);

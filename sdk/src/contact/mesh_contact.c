@@ -19,7 +19,7 @@
 
 /* Flags of `unsure` that hold everywhere on the mesh. */
 static int32_t has_parts(const knurl_mesh *mesh) {
-    return mesh->touching > 0 ? KNURL_UNSURE_PARTS : 0;
+    return mesh->facts.touching > 0 ? KNURL_UNSURE_PARTS : 0;
 }
 
 /* Distance of a HIP beyond the boundary that its closest point is on, along the surface; along: as a vector. */
@@ -70,7 +70,7 @@ static int set_contact(const knurl_mesh *mesh, knurl_visits *visits, int32_t sid
     }
     c->z = inside ? -distance : distance;
     if (inside && side * vec3_dot(mean, c->normal) > FOLD_COSINE_MIN) {
-        rest_before_fold(mesh->seam, side, mean, c);
+        rest_before_fold(mesh->facts.seam, side, mean, c);
     }
     return 1;
 }
@@ -311,7 +311,7 @@ static int hold_contact(const knurl_mesh *mesh, const knurl_contact_query *query
     }
     const int held = is_set ? is_contact(mesh, query, reach, &state->side, c)
                             : contact_beyond_boundary(mesh, query, reach, &closest, &state->side, c);
-    if (held && c->z > KNURL_ON_SURFACE && mesh->touching > 0) {
+    if (held && c->z > KNURL_ON_SURFACE && mesh->facts.touching > 0) {
         move_to_nearest(mesh, query, state->side, c);
     }
     return held;

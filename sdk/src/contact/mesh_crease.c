@@ -98,7 +98,7 @@ knurl_result knurl_mesh_compute_normals(knurl_heap *heap, knurl_mesh *mesh) {
             }
         }
         fill(&d);
-        mesh->has_computed_normals = 1;
+        mesh->facts.has_computed_normals = 1;
         knurl_mesh_settle_normals(heap, mesh);
     }
     knurl_heap_free(heap, faces);

@@ -168,7 +168,7 @@ void knurl_mesh_feel(const knurl_mesh *mesh, int32_t side, knurl_contact *c, knu
     if (!knurl_is_finite(vec3_sum(normal) + z)) {
         return;
     }
-    c->z = knurl_max(z, c->z - mesh->bulge); /* the surface is nowhere farther from its triangles */
+    c->z = knurl_max(z, c->z - mesh->facts.bulge); /* the surface is nowhere farther from its triangles */
     vec3_copy(w.at.point, c->proxy);
     vec3_copy(normal, c->normal);
     vec3_copy(w.weights, c->weights);

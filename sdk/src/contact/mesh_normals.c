@@ -135,14 +135,14 @@ void knurl_mesh_settle_normals(knurl_heap *heap, knurl_mesh *mesh) {
         knurl_mesh_normals(mesh, t, (const double (*)[3])corners, normals);
         const int kind = is_bad ? BAD : judge((const double (*)[3])corners, (const double (*)[3])normals, &height);
         if (kind == CURVED) {
-            mesh->curved++;
-            mesh->bulge = knurl_max(mesh->bulge, height);
+            mesh->facts.curved++;
+            mesh->facts.bulge = knurl_max(mesh->facts.bulge, height);
         } else {
-            mesh->bad_normals += kind == BAD;
+            mesh->facts.bad_normals += kind == BAD;
             packed[0] = packed[1] = packed[2] = KNURL_NORMAL_OF_FACE;
         }
     }
-    if (mesh->curved == 0) {
+    if (mesh->facts.curved == 0) {
         knurl_heap_free(heap, mesh->normals);
         mesh->normals = NULL;
     }

@@ -34,8 +34,8 @@ static void bound(const knurl_mesh *mesh, uint32_t triangle, bounded *b) {
     b->has_rim = has_rim(mesh, triangle);
     for (int axis = 0; axis < 3; axis++) {
         const double p = t.corners[0][axis], q = t.corners[1][axis], r = t.corners[2][axis];
-        low[axis] = knurl_min(p, knurl_min(q, r)) - mesh->seam;
-        high[axis] = knurl_max(p, knurl_max(q, r)) + mesh->seam;
+        low[axis] = knurl_min(p, knurl_min(q, r)) - mesh->facts.seam;
+        high[axis] = knurl_max(p, knurl_max(q, r)) + mesh->facts.seam;
     }
     knurl_search_box_set(low, high, &b->box);
     vec3_copy(t.normal, b->normal);
@@ -89,7 +89,7 @@ static double segments_distance2(const double a[3], const double b[3], const dou
 
 /* 1 if an edge comes within the seam of a triangle. */
 static int edge_touches(const knurl_mesh *mesh, const double from[3], const double to[3], const bounded *b) {
-    const double seam2 = mesh->seam * mesh->seam;
+    const double seam2 = mesh->facts.seam * mesh->facts.seam;
     knurl_closest_point closest;
     double heights[2], way[3], at[3];
     const double *const ends[2] = {from, to};
@@ -152,17 +152,17 @@ static int touch(const knurl_mesh *mesh, const bounded *a, uint32_t triangle, co
     if (count > 1 || (count == 1 && !a->has_rim && !has_rim(mesh, triangle))) { /* share an edge or a closed fan */
         return 0;
     }
-    const int beyond = is_beyond(a, corners, shared[1], mesh->seam);
+    const int beyond = is_beyond(a, corners, shared[1], mesh->facts.seam);
     if (count == 0 && beyond) {
         return 0;
     }
     bound(mesh, triangle, &b);
     if (count == 0) {
-        return !is_beyond(&b, (const double (*)[3])a->corners, 3, mesh->seam) &&
+        return !is_beyond(&b, (const double (*)[3])a->corners, 3, mesh->facts.seam) &&
                (edges_touch(mesh, a, 3, &b) || edges_touch(mesh, &b, 3, a));
     }
     return (!beyond && edges_touch(mesh, &b, shared[1], a)) ||
-           (!is_beyond(&b, (const double (*)[3])a->corners, shared[0], mesh->seam) &&
+           (!is_beyond(&b, (const double (*)[3])a->corners, shared[0], mesh->facts.seam) &&
             edges_touch(mesh, a, shared[0], &b));
 }
 
@@ -202,8 +202,8 @@ static uint32_t count_of_leaf(const knurl_mesh *mesh, const knurl_bvh_node *leaf
     double low[3], high[3];
     knurl_search_box box;
     for (int axis = 0; axis < 3; axis++) {
-        low[axis] = (double)leaf->min[axis] - mesh->seam;
-        high[axis] = (double)leaf->max[axis] + mesh->seam;
+        low[axis] = (double)leaf->min[axis] - mesh->facts.seam;
+        high[axis] = (double)leaf->max[axis] + mesh->facts.seam;
     }
     knurl_search_box_set(low, high, &box);
     for (uint32_t first = leaf->first; first < leaf->first + leaf->count; first += LEAF_MAX) {

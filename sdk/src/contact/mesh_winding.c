@@ -90,7 +90,7 @@ static uint32_t find_beside(winding *w, uint32_t corner) {
     vec3_sub(t.corners[corner_last(corner) & 3], from, edge);
     vec3_madd(from, 0.5, edge, middle);
     const double length = vec3_length(edge);
-    const double radius = fmax(mesh->seam, BESIDE_SHARE * fmin(length, t.area_twice / length));
+    const double radius = fmax(mesh->facts.seam, BESIDE_SHARE * fmin(length, t.area_twice / length));
     while (top > 0 && found < 2) {
         const uint32_t index = stack[--top];
         const knurl_bvh_node *node = &mesh->nodes[index];
@@ -218,9 +218,9 @@ static void choose_fronts(const winding *w, knurl_mesh *mesh) {
         mesh->double_sided |= w->is_clean && !decided;
         if (is_smaller && (decided || w->is_clean)) {
             w->marks[t] |= TURNED;
-            mesh->turned++;
+            mesh->facts.turned++;
         } else {
-            mesh->mixed += is_smaller ? 1 : 0;
+            mesh->facts.mixed += is_smaller ? 1 : 0;
         }
     }
 }
@@ -231,7 +231,7 @@ static int is_mixed(winding *w) {
     for (uint32_t i = 0; i < 3 * w->mesh->triangle_count && !mixed; i++) {
         const uint32_t opposite = w->mesh->opposite[i];
         mixed = (opposite & KNURL_FLIPPED) != 0;
-        if (w->mesh->touching > 0 && (opposite & KNURL_CORNER_MASK) == KNURL_BOUNDARY) {
+        if (w->mesh->facts.touching > 0 && (opposite & KNURL_CORNER_MASK) == KNURL_BOUNDARY) {
             const uint32_t beside = find_beside(w, 4 * (i / 3) + i % 3);
             mixed |= beside != NO_TRIANGLE && (beside & 1);
         }
@@ -241,7 +241,7 @@ static int is_mixed(winding *w) {
 
 knurl_result knurl_mesh_unify_winding(knurl_heap *heap, knurl_mesh *mesh) {
     const uint32_t count = mesh->triangle_count;
-    winding w = {mesh, NULL, NULL, NULL, 0, mesh->touching == 0 && mesh->non_manifold_count == 0};
+    winding w = {mesh, NULL, NULL, NULL, 0, mesh->facts.touching == 0 && mesh->non_manifold_count == 0};
     w.steps = STEPS;
     if (mesh->double_sided || !is_mixed(&w)) { /* because of reversed twins */
         return KNURL_OK;

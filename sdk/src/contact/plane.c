@@ -7,8 +7,8 @@
 
 void knurl_plane_set_stretch(knurl_plane *plane, double along) {
     for (int i = 0; i < 3; i++) {
-        plane->stretch[0][i] = along;
-        plane->stretch[1][i] = 1.0;
+        plane->facts.stretch[0][i] = along;
+        plane->facts.stretch[1][i] = 1.0;
     }
 }
 
@@ -43,7 +43,8 @@ void knurl_plane_from_rectangle(const double half_extents[2], const double axis[
 void knurl_plane_set_seam(knurl_plane *plane) {
     const double size =
         plane->half_extents[0] > plane->half_extents[1] ? plane->half_extents[0] : plane->half_extents[1];
-    plane->seam = plane->flatness + (KNURL_SEAM > KNURL_SEAM_SHARE * size ? KNURL_SEAM : KNURL_SEAM_SHARE * size);
+    plane->facts.seam =
+        plane->facts.error + (KNURL_SEAM > KNURL_SEAM_SHARE * size ? KNURL_SEAM : KNURL_SEAM_SHARE * size);
 }
 
 /* Counts the edges that a ray along x crosses: even outside, odd inside. An edge includes its lower end but not its
@@ -81,7 +82,7 @@ static double off_edge(const knurl_edge *edge, const double p[2], double off[2])
 /* 1 inside the outline, or within the seam of one of its edges. */
 static int is_within_seam(const knurl_plane *plane, const double p[2]) {
     for (int i = 0; i < 2; i++) {
-        if (!(fabs(p[i]) <= plane->half_extents[i] + plane->seam)) {
+        if (!(fabs(p[i]) <= plane->half_extents[i] + plane->facts.seam)) {
             return 0;
         }
     }
@@ -90,7 +91,7 @@ static int is_within_seam(const knurl_plane *plane, const double p[2]) {
     }
     for (uint32_t i = 0; i < plane->edge_count; i++) {
         double off[2];
-        if (off_edge(&plane->outline[i], p, off) <= plane->seam * plane->seam) {
+        if (off_edge(&plane->outline[i], p, off) <= plane->facts.seam * plane->facts.seam) {
             return 1;
         }
     }

@@ -6,6 +6,7 @@
 #include "base/heap.h"
 #include "base/vec3.h"
 #include "contact/contact.h"
+#include "contact/shape_facts.h"
 
 /* Maximum number of edges of an outline. A tick tests those in the HIP's band: a few for a disc, but all for a comb,
  * and at 1 ns each 64 cost as much as a whole tick of a plane. */
@@ -26,9 +27,6 @@ typedef struct knurl_plane {
     double x[2];            /* the grating's x direction, unit, in the plane's axes, seen from the front */
     double map[2][3];       /* surface coordinates from the front: c_i = map[i][0] px + map[i][1] py + map[i][2], m */
     double uv_scale[2];     /* m for each unit of u and v, if the map comes from uvs; otherwise 0 */
-    double stretch[2][3];   /* min, mean, max of d(surface coordinate)/d(metre along x), and along y */
-    double flatness;  /* m: largest distance of the vertices from the plane, or of those left out from the outline */
-    double seam;      /* m: beyond its edges that a cast still hits */
     double inside[2]; /* a point of the plane: its origin or, if a hole or an edge is there, the middle of a triangle */
     knurl_edge *outline; /* closed loops, in any order; null: the bounding rectangle */
     uint8_t *members;    /* edges of each band, band by band */
@@ -37,10 +35,9 @@ typedef struct knurl_plane {
     uint32_t edge_count;
     int32_t has_coordinates; /* 0: neither uvs nor an axis; the map is empty */
     uint32_t triangle_count; /* triangles kept of a flat mesh; 0: created as a plane */
-    uint32_t dropped;        /* triangles dropped because they have no area or are duplicates */
-    uint32_t reversed_twins; /* triangles dropped because another has the same corners with opposite winding */
     int32_t double_sided;    /* 1: it has reversed twins */
     uint32_t other_users;    /* atomic: shapes that share it, not counting the first */
+    knurl_shape_facts facts;
 } knurl_plane;
 
 /* Sets the stretch to `along` for x and to 1 for y. */
@@ -97,7 +94,7 @@ int knurl_plane_cast(const knurl_plane *plane, const knurl_cast *cast, knurl_cas
 void knurl_plane_rest(const knurl_cast_hit *hit, const double point[3], knurl_contact_state *state,
                       knurl_contact *contact) KNURL_NONBLOCKING;
 
-/* Sets the seam from the plane's size and flatness. */
+/* Sets the seam from the plane's size and error. */
 void knurl_plane_set_seam(knurl_plane *plane);
 
 #endif

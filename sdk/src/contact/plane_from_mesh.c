@@ -119,9 +119,9 @@ static knurl_result set_plane_frame(knurl_heap *heap, const knurl_sheet *sheet, 
     double middle[2];
     double rectangle_error = 0.0;
     centre_on_bounds(plane, middle);
-    plane->flatness = fmax(sheet->flatness, outline_error);
+    plane->facts.error = fmax(sheet->flatness, outline_error);
     if (is_rectangle(plane, sheet->limit, &rectangle_error)) {
-        plane->flatness = fmax(sheet->flatness, outline_error + rectangle_error);
+        plane->facts.error = fmax(sheet->flatness, outline_error + rectangle_error);
         knurl_heap_free(heap, plane->outline);
         plane->outline = NULL;
         plane->edge_count = 0;
@@ -131,8 +131,8 @@ static knurl_result set_plane_frame(knurl_heap *heap, const knurl_sheet *sheet, 
     knurl_plane_set_seam(plane);
     find_inside(sheet, middle, plane);
     plane->triangle_count = sheet->count;
-    plane->dropped = sheet->dropped;
-    plane->reversed_twins = sheet->twins;
+    plane->facts.dropped = sheet->dropped;
+    plane->facts.reversed_twins = sheet->twins;
     plane->double_sided = sheet->twins > 0;
     vec3_madd(sheet->origin, middle[0], sheet->axes[0], position);
     vec3_madd(position, middle[1], sheet->axes[1], position);

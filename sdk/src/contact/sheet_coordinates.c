@@ -68,7 +68,7 @@ static void map_by_projection(knurl_sheet *sheet, knurl_plane *plane) {
     for (int i = 0; i < 2; i++) { /* 1 / |dP/du| = det / |grad v| */
         const double *other = plane->map[1 - i];
         const double stretch = det / sqrt(other[0] * other[0] + other[1] * other[1]);
-        plane->stretch[i][0] = plane->stretch[i][1] = plane->stretch[i][2] = stretch;
+        plane->facts.stretch[i][0] = plane->facts.stretch[i][1] = plane->facts.stretch[i][2] = stretch;
     }
     plane->has_coordinates = 1;
 }

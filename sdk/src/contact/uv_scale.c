@@ -107,7 +107,7 @@ knurl_result knurl_mesh_measure_uvs(knurl_heap *heap, knurl_mesh *mesh) {
     double area = 0.0, mapped = 0.0;
     uint32_t count = 0;
     for (int i = 0; i < 2; i++) {
-        mesh->stretch[i][0] = mesh->stretch[i][1] = mesh->stretch[i][2] = 1.0;
+        mesh->facts.stretch[i][0] = mesh->facts.stretch[i][1] = mesh->facts.stretch[i][2] = 1.0;
     }
     if (!mesh->uvs && !mesh->is_projected) {
         return KNURL_OK;
@@ -130,11 +130,11 @@ knurl_result knurl_mesh_measure_uvs(knurl_heap *heap, knurl_mesh *mesh) {
     }
     for (int k = 0; k < 2 && count > 0; k++) {
         mesh->uv_scale[k] = mesh->is_projected ? 1.0 : find_scale(list, count, k);
-        find_stretch(list, count, k, mesh->uv_scale[k], mesh->stretch[k]);
+        find_stretch(list, count, k, mesh->uv_scale[k], mesh->facts.stretch[k]);
     }
-    mesh->projection_seams = mesh->is_projected ? count_seams(mesh) : 0;
-    mesh->collapsed = 1.0 - mapped / area;
-    mesh->uneven = 1.0 - find_even(list, count, mesh->uv_scale) / area;
+    mesh->facts.projection_seams = mesh->is_projected ? count_seams(mesh) : 0;
+    mesh->facts.collapsed = 1.0 - mapped / area;
+    mesh->facts.uneven = 1.0 - find_even(list, count, mesh->uv_scale) / area;
     knurl_heap_free(heap, list);
     return KNURL_OK;
 }

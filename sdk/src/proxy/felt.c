@@ -37,7 +37,7 @@ static void feel_part(const knurl_mesh *mesh, int32_t side, const knurl_felt_par
 /* The sum of all parts' pushes, at the first part's point. */
 static void feel_parts(const knurl_mesh *mesh, int32_t side, const knurl_felt_parts *parts, knurl_contact *c,
                        knurl_facet *facet) {
-    const double deepest = c->z - mesh->bulge;
+    const double deepest = c->z - mesh->facts.bulge;
     const knurl_contact whole = *c;
     double sum[3] = {0.0, 0.0, 0.0};
     for (uint32_t i = 0; i < parts->count; i++) {
@@ -57,7 +57,7 @@ static void feel_parts(const knurl_mesh *mesh, int32_t side, const knurl_felt_pa
 
 int knurl_felt_find(knurl_active_contact *a) {
     knurl_candidate *candidate = a->candidate;
-    const knurl_mesh *mesh = a->surface->shape.geometry;
+    const knurl_mesh *mesh = a->surface->shape.mesh;
     knurl_contact *c = &a->contact;
     if (a->felt.parts.count > 0) {
         feel_parts(mesh, candidate->contact.side, &a->felt.parts, c, &a->felt.facet);

@@ -24,7 +24,7 @@ static const knurl_active_face *sum_faces(const knurl_active_faces *faces, uint3
 /* Adds the parts of a smooth mesh whose faces push to a contact of `depth` (m). summed: m, the length of their sum. */
 static void add_parts(const knurl_joint_search *m, const knurl_active_faces *faces, const knurl_active_face *most,
                       double depth, double summed, knurl_touched *touched) {
-    const knurl_mesh *mesh = m->near.list[most->obstacle].surface->shape.geometry;
+    const knurl_mesh *mesh = m->near.list[most->obstacle].surface->shape.mesh;
     for (uint32_t i = 0; i < faces->count; i++) {
         const knurl_active_face *face = &faces->list[i];
         if (face->obstacle == most->obstacle && face->press > 0.0) {

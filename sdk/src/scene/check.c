@@ -133,7 +133,7 @@ static void check_place(const inspection *on, const knurl_surface_data *surface)
 /* Crests that reach farther than a mesh is wide, or stacks of overlapping triangles. */
 static void check_visits(const inspection *on, const knurl_surface_data *surface, uint32_t max_visits) {
     const knurl_shape *shape = &surface->shape;
-    if (shape->functions->exceeds_visits(shape->geometry, surface->record->reach, max_visits)) {
+    if (shape->mesh && knurl_mesh_exceeds_visits(shape->mesh, surface->record->reach, max_visits)) {
         say(on, KNURL_LIMIT_VISITS,
             "use fewer triangles, remove those that lie over one another, or lower the crests below the mesh's width",
             "in places contact looks at more than the %u triangles and nodes that a tick has time for",
@@ -158,7 +158,7 @@ static uint32_t is_mesh_near(const knurl_surface_data *surface, const double poi
     }
     knurl_motion_at(&surface->record->motion, now, &pose);
     knurl_pose_to_own(&pose, point, own);
-    return (uint32_t)knurl_mesh_closest(surface->shape.geometry, own, CROWD_REACH, NULL, NULL, &nearest);
+    return (uint32_t)knurl_mesh_closest(surface->shape.mesh, own, CROWD_REACH, NULL, NULL, &nearest);
 }
 
 /* Counts the meshes within CROWD_REACH of a point, to CROWD_MAX. */
@@ -200,32 +200,32 @@ static void check_crowd(const inspection *on, const knurl_scene *scene, const kn
 /* Triangles that share an edge and face opposite ways. */
 static void check_winding(const inspection *on, const knurl_surface_data *surface) {
     const knurl_shape_facts *facts = on->facts;
-    if (facts->reversed_twins > 0 && facts->reversed_twins < facts->triangle_count) {
+    const uint32_t count = knurl_shape_triangles(&surface->shape);
+    if (facts->reversed_twins > 0 && facts->reversed_twins < count) {
         say(on, KNURL_LIMIT_WINDING, "merge or delete the doubled faces in the editor",
-            "%u of its %u triangles have a reversed twin, %s", (unsigned)facts->reversed_twins,
-            (unsigned)facts->triangle_count,
+            "%u of its %u triangles have a reversed twin, %s", (unsigned)facts->reversed_twins, (unsigned)count,
             surface->double_sided ? "so all of it is felt from both sides" : "which was left out");
     }
     if (facts->turned > 0) {
         say(on, KNURL_LIMIT_WINDING, "recalculate the normals in the editor",
             "%u of its %u triangles were wound against their neighbours, and were turned over", (unsigned)facts->turned,
-            (unsigned)facts->triangle_count);
+            (unsigned)count);
     }
     if (facts->mixed > 0 && !surface->double_sided) {
         say(on, KNURL_LIMIT_WINDING, "recalculate the normals in the editor, or make each part a mesh of its own",
             "%u of its %u triangles are wound against their neighbours, and may let the HIP through: too many "
             "triangles touch there to find the right side",
-            (unsigned)facts->mixed, (unsigned)facts->triangle_count);
+            (unsigned)facts->mixed, (unsigned)count);
     }
 }
 
-static void check_normals(const inspection *on) {
+static void check_normals(const inspection *on, const knurl_surface_data *surface) {
     const knurl_shape_facts *facts = on->facts;
     if (facts->bad_normals > 0 && !facts->has_computed_normals) {
         say(on, KNURL_LIMIT_NORMALS, "recalculate the normals in the editor",
             "%u of its %u triangles are felt flat, because their normals are not of unit length, more than "
             "60 degrees off the triangle, or fold the surface",
-            (unsigned)facts->bad_normals, (unsigned)facts->triangle_count);
+            (unsigned)facts->bad_normals, (unsigned)knurl_shape_triangles(&surface->shape));
     }
 }
 
@@ -234,11 +234,9 @@ static void inspect(const knurl_scene *scene, const knurl_hip *hip, const knurl_
     const knurl_material_desc *m = &surface->record->material;
     knurl_workspace workspace;
     knurl_bounds bounds; /* not the guard's: their scale changes on the haptic thread */
-    knurl_shape_facts facts;
-    const inspection on = {&bounds, m, surface->name, &facts, check, hip->guard.clamp};
+    const inspection on = {&bounds, m, surface->name, knurl_shape_get_facts(&surface->shape), check, hip->guard.clamp};
     knurl_wall wall;
     memset(check, 0, sizeof *check);
-    knurl_shape_get_facts(&surface->shape, &facts);
     knurl_workspace_target(&hip->move, &hip->workspace, &workspace);
     knurl_bounds_init(&bounds, &hip->facts, workspace.scale);
     knurl_wall_init(&wall, m, 0.0, NULL);
@@ -257,7 +255,7 @@ static void inspect(const knurl_scene *scene, const knurl_hip *hip, const knurl_
     check_visits(&on, surface, hip->contacts.budget.max);
     check_crowd(&on, scene, surface);
     check_winding(&on, surface);
-    check_normals(&on);
+    check_normals(&on, surface);
     if (!surface->record->is_smooth) {
         check_texture(&on, wall.stiffness);
         check_stretch(&on, surface);

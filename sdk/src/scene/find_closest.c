@@ -27,11 +27,11 @@ static int closest_of_shape(const knurl_shape *shape, const double p[3], double 
         knurl_plane_closest(shape->plane, p, closest);
         return 1;
     }
-    if (!knurl_mesh_closest(shape->geometry, p, radius, NULL, NULL, &found)) {
+    if (!knurl_mesh_closest(shape->mesh, p, radius, NULL, NULL, &found)) {
         return 0;
     }
     *triangle = found.triangle;
-    knurl_mesh_triangle(shape->geometry, found.triangle, &t);
+    knurl_mesh_triangle(shape->mesh, found.triangle, &t);
     vec3_copy(found.proxy, closest);
     vec3_copy(t.normal, normal);
     return 1;
@@ -63,7 +63,7 @@ static void look_at(search *s, const knurl_surface_data *surface) {
  * answer's triangle, which may be of another shape by now. A little more than that, so that the answer is the same. */
 static void begin_at(search *s, knurl_surface_id id, uint32_t triangle) {
     const knurl_surface_data *surface = knurl_surfaces_find(&s->scene->surfaces, id);
-    const knurl_mesh *mesh = surface && !surface->shape.plane ? surface->shape.geometry : NULL;
+    const knurl_mesh *mesh = surface && !surface->shape.plane ? surface->shape.mesh : NULL;
     if (mesh && triangle < mesh->triangle_count) {
         knurl_closest_point closest;
         knurl_pose pose;

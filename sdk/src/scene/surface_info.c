@@ -51,35 +51,38 @@ static void describe_facets(const knurl_mesh_facets *facets, knurl_surface_info 
 }
 
 static void describe_model(const knurl_surface_data *surface, knurl_surface_info *info) {
-    knurl_shape_facts facts;
-    knurl_shape_get_facts(&surface->shape, &facts);
+    const knurl_shape_facts *facts = knurl_shape_get_facts(&surface->shape);
+    const knurl_plane *plane = surface->shape.plane;
+    const knurl_mesh *mesh = surface->shape.mesh;
     info->shape = surface->given;
-    info->model = facts.model;
+    info->model = surface->shape.model;
     info->why = surface->shape.why;
-    info->triangle_count = facts.triangle_count;
-    info->dropped_triangles = facts.dropped;
-    info->reversed_twins = facts.reversed_twins;
-    info->turned_triangles = facts.turned;
-    info->model_error = facts.error;
-    info->seam = facts.seam;
-    info->touching_pairs = facts.touching;
-    info->curved_triangles = facts.curved;
-    info->bad_normals = facts.bad_normals;
-    info->bulge = facts.bulge;
+    info->triangle_count = knurl_shape_triangles(&surface->shape);
+    info->dropped_triangles = facts->dropped;
+    info->reversed_twins = facts->reversed_twins;
+    info->turned_triangles = facts->turned;
+    info->model_error = facts->error;
+    info->seam = facts->seam;
+    info->touching_pairs = facts->touching;
+    info->curved_triangles = facts->curved;
+    info->bad_normals = facts->bad_normals;
+    info->bulge = facts->bulge;
     info->coordinates = surface->shape.coordinates;
-    info->uneven = facts.uneven;
-    info->projection_seams = facts.projection_seams;
+    info->uneven = facts->uneven;
+    info->projection_seams = facts->projection_seams;
     info->smooth = surface->shape.smooth;
-    if (!surface->shape.plane) {
-        const knurl_mesh *mesh = surface->shape.geometry;
+    if (mesh) {
         describe_facets(&mesh->facets, info);
     }
-    memcpy(info->uv_scale, facts.uv_scale, sizeof info->uv_scale);
+    if (plane || (mesh->uvs && !mesh->has_axis)) {
+        memcpy(info->uv_scale, plane ? plane->uv_scale : mesh->uv_scale, sizeof info->uv_scale);
+    }
     info->double_sided = (uint32_t)surface->double_sided;
     info->bytes = knurl_heap_size(surface) + knurl_heap_size(surface->record) + knurl_heap_size(surface->name) +
-                  facts.bytes / knurl_shape_users(&surface->shape);
-    memcpy(info->stretch, facts.stretch[0], sizeof facts.stretch[0]);
-    memcpy(info->stretch_y, facts.stretch[1], sizeof facts.stretch[1]);
+                  (plane ? knurl_plane_bytes(plane) : knurl_mesh_bytes(mesh)) /
+                      (1 + knurl_load_relaxed(knurl_shape_other_users(&surface->shape)));
+    memcpy(info->stretch, facts->stretch[0], sizeof facts->stretch[0]);
+    memcpy(info->stretch_y, facts->stretch[1], sizeof facts->stretch[1]);
 }
 
 /* Describes a surface as it stands now; the bounds of a moving one contain its whole motion. */
@@ -98,7 +101,7 @@ static void describe(const knurl_scene *scene, const knurl_surface_data *surface
 /* Counts the edges of a mesh for the first time, without the scene's lock: edits do not wait. shape: shared, so that
  * the mesh outlives its surface; released here. */
 static void count_facets(const knurl_scene *scene, const knurl_shape *shape, knurl_surface_info *info) {
-    knurl_mesh *mesh = shape->geometry;
+    knurl_mesh *mesh = shape->mesh;
     knurl_mesh_facets facets;
     knurl_mesh_count_facets(mesh, &facets);
     describe_facets(&facets, info);

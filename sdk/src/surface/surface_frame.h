@@ -30,7 +30,7 @@ static inline void knurl_surface_coordinates(const knurl_surface_data *surface, 
         knurl_plane_coordinates(surface->shape.plane, contact, coordinates);
     } else if (surface->shape.is_projected) {
         double carried[2] = {coordinates[0], coordinates[1]}; /* a copy, see force_law.h */
-        knurl_mesh_carry(surface->shape.geometry, contact, begins, carry, carried);
+        knurl_mesh_carry(surface->shape.mesh, contact, begins, carry, carried);
         coordinates[0] = carried[0];
         coordinates[1] = carried[1];
     }
