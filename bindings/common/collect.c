@@ -6,11 +6,6 @@
 /* As many faults as a device stores. */
 enum { MOST_FAULTS = 64, BUTTONS = 32 };
 
-static int is_there(const knurl_session *s, knurl_surface_id id) {
-    const char *name;
-    return id != 0 && knurl_scene_get_surface_name(s->scene, id, &name) == KNURL_OK;
-}
-
 static void touch(knurl_session *s, knurl_surface_id id) {
     s->latest = id;
     s->touches[(s->first_touch + s->touch_count) % KNURL_SESSION_TOUCHES] = id;
@@ -40,7 +35,8 @@ static void collect_touches(knurl_session *s) {
     knurl_board_tick sent;
     const uint32_t count = knurl_board_changes(&s->board, met);
     (void)read_tick(s, &sent);
-    const knurl_surface_id last = is_there(s, sent.surface) ? sent.surface : 0; /* a tick may lag behind a removal */
+    const knurl_surface_id last =
+        knurl_scene_has_surface(s->scene, sent.surface) ? sent.surface : 0; /* a tick may lag behind a removal */
     for (uint32_t i = 0; i < count; i++) {
         int is_new = met[i] != 0 && met[i] != s->latest && met[i] != last;
         for (uint32_t j = 0; j < i; j++) {
@@ -116,7 +112,7 @@ static int next_touch(knurl_session *s, knurl_session_event *event) {
         }
         s->first_touch = (s->first_touch + 1) % KNURL_SESSION_TOUCHES;
         s->touch_count--;
-        if (id != s->touched && is_there(s, id)) {
+        if (id != s->touched && knurl_scene_has_surface(s->scene, id)) {
             event->kind = KNURL_SESSION_CONTACT_STARTED;
             event->surface = s->touched = id;
             return 1;

@@ -147,8 +147,8 @@ static knurl_result make_loop(knurl_session *session, double heartbeat_s) {
 }
 
 static void warn(const knurl_session *session, knurl_surface_id outside, char *warning, uint32_t size) {
-    const char *name = "";
-    if (outside && !knurl_scene_get_surface_name(session->scene, outside, &name)) {
+    char name[KNURL_NAME_SIZE] = "";
+    if (outside && !knurl_scene_get_surface_name(session->scene, outside, name)) {
         knurl_session_add_line(
             warning, size,
             "surface '%s' lies outside of the workspace, so the stroke over it is cut short: move the "

@@ -24,12 +24,12 @@ static void print_row(recorder *r, const knurl_tick_output *o) {
                              o->surface_velocity[1]};
     const double after[] = {o->depth,    o->spatial_frequency, o->temporal_frequency, o->height, o->force[0],
                             o->force[1], o->force[2]};
-    const char *name = "";
+    char name[KNURL_NAME_SIZE] = "";
     for (size_t i = 0; i < sizeof before / sizeof *before; i++) {
         csv_number(&r->csv, before[i]);
     }
     if (o->surface) {
-        (void)knurl_scene_get_surface_name(r->scene, o->surface, &name);
+        (void)knurl_scene_get_surface_name(r->scene, o->surface, name);
         csv_name(&r->csv, name);
     } else {
         csv_word(&r->csv, "none");

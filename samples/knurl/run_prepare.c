@@ -18,8 +18,8 @@ static knurl_result set_methods(knurl_scene *scene, int32_t method) {
         material.method = method;
         result = result ? result : knurl_scene_set_material(scene, surface, &material);
         if (result) {
-            const char *name = "";
-            (void)knurl_scene_get_surface_name(scene, surface, &name);
+            char name[KNURL_NAME_SIZE] = "";
+            (void)knurl_scene_get_surface_name(scene, surface, name);
             return knurl_fail(result, "surface '%s': %s", name, knurl_error_message());
         }
     }

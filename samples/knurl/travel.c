@@ -19,11 +19,11 @@ static int is_moving(int32_t stroke) {
 
 int travel_check(const travel *t, const knurl_scene *scene, knurl_surface_id surface, double seconds) {
     knurl_hip_counts counts;
-    const char *name = NULL;
+    char name[KNURL_NAME_SIZE];
     knurl_material_desc material;
     knurl_material_desc_init(&material, sizeof material);
     if ((t->stroke && seconds < JUDGED_S) || knurl_scene_get_tick(scene, 0, NULL, &counts) ||
-        knurl_scene_get_surface_name(scene, surface, &name) || knurl_scene_get_material(scene, surface, &material)) {
+        knurl_scene_get_surface_name(scene, surface, name) || knurl_scene_get_material(scene, surface, &material)) {
         return TOOL_OK;
     }
     if (counts.contact_ticks == 0) {

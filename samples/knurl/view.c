@@ -329,11 +329,11 @@ static int make_hello(view *v) {
     json_number(&json, "rate_hz", v->desc.rate);
     json_open(&json, "surfaces", '[');
     for (uint32_t i = 0; i < v->surface_count; i++) {
-        const char *name = NULL;
+        char name[KNURL_NAME_SIZE];
         knurl_material_desc material;
         knurl_material_desc_init(&material, sizeof material);
         v->surfaces[i] = knurl_scene_get_surface(v->desc.scene, i);
-        if (knurl_scene_get_surface_name(v->desc.scene, v->surfaces[i], &name) == KNURL_OK &&
+        if (knurl_scene_get_surface_name(v->desc.scene, v->surfaces[i], name) == KNURL_OK &&
             knurl_scene_get_material(v->desc.scene, v->surfaces[i], &material) == KNURL_OK) {
             describe_surface(&json, name, &material);
         }

@@ -68,10 +68,10 @@ EMSCRIPTEN_KEEPALIVE uint32_t web_count(void) {
     return knurl_scene_get_surface_count(scene);
 }
 
-/* A surface's name, or null. numbers: fsx, fsy, amplitude, stiffness, friction, method, anchor (3), normal (3), x (3),
- * m to the edge along +x and -x. */
+/* A surface's name, valid until the next call, or null. numbers: fsx, fsy, amplitude, stiffness, friction, method,
+ * anchor (3), normal (3), x (3), m to the edge along +x and -x. */
 EMSCRIPTEN_KEEPALIVE const char *web_surface(uint32_t index, double numbers[17]) {
-    knurl_surface_info info;
+    static knurl_surface_info info;
     knurl_surface_info_init(&info, sizeof info);
     knurl_material_desc m;
     knurl_material_desc_init(&m, sizeof m);

@@ -40,7 +40,7 @@ VALUES = {
     "knurl_method_add.user": "f",
     "knurl_stroke_from_name.name": '"line"',
     "knurl_scene_find_surface.name": '"plate"',
-    "knurl_scene_get_surface_name.name": "&f->name",
+    "knurl_scene_get_surface_name.name": "f->text",
     "knurl_scene_commit.scene": "f->open_scene",
     "knurl_scene_get_contacts.contacts": "f->contacts",
     "knurl_scene_get_contacts.capacity": "1",
@@ -188,7 +188,7 @@ def split(declaration):
     for parameter in inside.split(","):
         if parameter.strip() in ("void", "..."):
             continue
-        kind, word, array = re.match(r"\s*(.*?)(\w+)(\[\d*\])?$", parameter).groups()
+        kind, word, array = re.match(r"\s*(.*?)(\w+)(\[\w*\])?$", parameter).groups()
         kind = kind.strip() + (" *" if array else "")
         parameters.append((kind, word))
     return returned.strip(), name, parameters, "KNURL_NONBLOCKING" in rest

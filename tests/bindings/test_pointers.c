@@ -36,7 +36,6 @@ typedef struct fixture {
     knurl_audio *new_audio;
     knurl_sound *sound;
     knurl_surface_id new_surface;
-    const char *name;
     unsigned char file[65536];
     uint64_t file_size, count;
     int32_t number;

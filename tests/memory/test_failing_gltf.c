@@ -50,8 +50,8 @@ static void scene_state(char *text, size_t size) {
     size_t used = 0;
     for (uint32_t i = 0; i < count && used < size; i++) {
         const knurl_surface_id id = knurl_scene_get_surface(scene, i);
-        const char *name = "";
-        (void)knurl_scene_get_surface_name(scene, id, &name);
+        char name[KNURL_NAME_SIZE] = "";
+        (void)knurl_scene_get_surface_name(scene, id, name);
         used += (size_t)snprintf(text + used, size - used, "%s %llx, ", name, (unsigned long long)id);
     }
 }

@@ -227,9 +227,9 @@ static knurl_result call_set_workspace(void) {
 
 static knurl_result call_find_surface(void) {
     knurl_surface_id id = 0;
-    const char *name = NULL;
+    char name[KNURL_NAME_SIZE];
     const knurl_result result = knurl_scene_find_surface(scene, "hills", &id);
-    return result ? result : knurl_scene_get_surface_name(scene, id, &name);
+    return result ? result : knurl_scene_get_surface_name(scene, id, name);
 }
 
 static knurl_result call_find_unknown(void) {

@@ -39,7 +39,7 @@ TEST(questions_to_a_scene_refuse_null) {
     surface_parts parts = surface_plane();
     SCOPED_SCENE *s = scene_of(&parts);
     const double at[3] = {0.0, 0.0, 0.1}, to[3] = {0.0, 0.0, -0.1};
-    const char *name = "untouched";
+    char name[KNURL_NAME_SIZE] = "untouched";
     knurl_surface_id id = knurl_scene_get_surface(s, 0);
     knurl_surface_info info;
     knurl_surface_point point;
@@ -50,7 +50,7 @@ TEST(questions_to_a_scene_refuse_null) {
     REFUSED(knurl_scene_find_surface(NULL, "plate", &id), id);
     REFUSED(knurl_scene_find_surface(s, NULL, &id), id);
     REFUSED(knurl_scene_find_surface(s, "plate", NULL), id);
-    REFUSED(knurl_scene_get_surface_name(NULL, id, &name), name);
+    REFUSED(knurl_scene_get_surface_name(NULL, id, name), name);
     REFUSED(knurl_scene_get_surface_name(s, id, NULL), id);
     REFUSED(knurl_scene_get_surface_info(NULL, id, &info), info);
     REFUSED(knurl_scene_get_surface_info(s, id, NULL), id);

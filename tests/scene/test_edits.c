@@ -70,7 +70,7 @@ TEST(ids_stay_stale_for_ever) {
     surface_parts parts = surface_plane();
     SCOPED_SCENE *scene = open_scene(1);
     const knurl_surface_id kept = add_surface(scene, &parts);
-    const char *name = "untouched";
+    char name[KNURL_NAME_SIZE] = "untouched";
     knurl_surface_info info;
     knurl_surface_info_init(&info, sizeof info);
     for (int i = 0; i < TURNS; i++) {
@@ -84,7 +84,7 @@ TEST(ids_stay_stale_for_ever) {
         CHECK_REFUSED(knurl_scene_remove_surface(scene, ids[i]), KNURL_ERROR_STALE_ID, name);
         CHECK_REFUSED(knurl_scene_set_material(scene, ids[i], &parts.material), KNURL_ERROR_STALE_ID, name);
         CHECK_REFUSED(knurl_scene_set_transform(scene, ids[i], position, UPRIGHT, 0.0), KNURL_ERROR_STALE_ID, name);
-        CHECK_REFUSED(knurl_scene_get_surface_name(scene, ids[i], &name), KNURL_ERROR_STALE_ID, name);
+        CHECK_REFUSED(knurl_scene_get_surface_name(scene, ids[i], name), KNURL_ERROR_STALE_ID, name);
         CHECK_REFUSED(knurl_scene_get_surface_info(scene, ids[i], &info), KNURL_ERROR_STALE_ID, info);
     }
     assert_int_equal(knurl_scene_get_surface_count(scene), 2);

@@ -1,5 +1,7 @@
 /* Freeing a large mesh takes milliseconds, counting its edges longer: other threads' edits and questions do not wait.
  * SPDX-License-Identifier: MIT */
+#include "contact/mesh.h"
+#include "scene/scene.h"
 #include "support/ledger.h"
 
 #include "base/system.h"
@@ -88,13 +90,19 @@ static int answers_while_counting(int *waited) {
     surface_parts parts = surface_mesh(&sheet);
     SCOPED_SCENE *scene = scene_of(&parts);
     asker a = {.scene = scene, .id = knurl_scene_get_surface(scene, 0)};
+    knurl_surface_info meanwhile, after;
+    knurl_surface_info_init(&meanwhile, sizeof meanwhile);
+    knurl_surface_info_init(&after, sizeof after);
     assert_int_equal(pthread_create(&a.thread, NULL, tell, &a), 0);
     while (!__atomic_load_n(&a.is_asking, __ATOMIC_ACQUIRE)) {}
     (void)nanosleep(&pause, NULL); /* the count takes some 0.2 s */
     assert_int_equal(knurl_scene_has_surface(scene, a.id), 1);
     (void)nanosleep(&pause, NULL);
     *waited = __atomic_load_n(&a.is_answered, __ATOMIC_ACQUIRE);
+    assert_int_equal(knurl_scene_get_surface_info(scene, a.id, &meanwhile), KNURL_OK);
     assert_int_equal(pthread_join(a.thread, NULL), 0);
+    assert_int_equal(knurl_scene_get_surface_info(scene, a.id, &after), KNURL_OK);
+    assert_true(meanwhile.bytes == after.bytes);
     return !a.waited;
 }
 
@@ -104,4 +112,26 @@ TEST(edits_do_not_wait_while_the_edges_of_a_mesh_are_counted) {
         assert_true(answers_while_counting(&waited));
     }
     assert_false(waited);
+}
+
+TEST(a_mesh_without_common_edges_is_counted_once) {
+    SCOPED_SHAPE apart = shape_new(6, 6, 0);
+    for (uint32_t i = 0; i < 6; i++) { /* two triangles, one over the other */
+        shape_set(&apart, i, i % 3 == 1 ? 0.1 : 0.0, i % 3 == 2 ? 0.1 : 0.0, i < 3 ? 0.0 : 0.05);
+        apart.indices[i] = i;
+    }
+    surface_parts parts = surface_mesh(&apart);
+    parts.desc.axis[0] = 1.0;
+    SCOPED_SCENE *scene = scene_of(&parts);
+    const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
+    knurl_surface_info info;
+    knurl_surface_data *surface;
+    knurl_surface_info_init(&info, sizeof info);
+    assert_int_equal(knurl_scene_get_surface_info(scene, id, &info), KNURL_OK);
+    assert_int_equal(info.edges, 0);
+    assert_int_equal(knurl_scene_lock_surface(scene, id, &surface), KNURL_OK);
+    surface->shape.mesh->facets.felt_angle[1] = 77.0;
+    knurl_scene_unlock(scene);
+    assert_int_equal(knurl_scene_get_surface_info(scene, id, &info), KNURL_OK);
+    CHECK_SAME(info.felt_angle[1], 77.0); /* not counted again */
 }

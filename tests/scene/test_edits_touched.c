@@ -170,10 +170,10 @@ typedef struct plain_list {
 } plain_list;
 
 static void compare_place(const knurl_scene *scene, const plain_list *list, uint32_t index) {
-    const char *name = NULL;
+    char name[KNURL_NAME_SIZE];
     char expected[16];
     assert_true(knurl_scene_get_surface(scene, index) == list->ids[index]);
-    assert_int_equal(knurl_scene_get_surface_name(scene, list->ids[index], &name), KNURL_OK);
+    assert_int_equal(knurl_scene_get_surface_name(scene, list->ids[index], name), KNURL_OK);
     (void)snprintf(expected, sizeof expected, "n%d", list->names[index]);
     assert_string_equal(name, expected);
 }
@@ -221,9 +221,9 @@ TEST(ten_thousand_adds_and_removes_agree_with_a_plain_list) {
         }
         if (step % 3 == 0) { /* in between, ticks in contact */
             const knurl_tick_output out = tick_at(scene, 0.0, 0.0, random_between(&seed, -0.012, 0.012));
-            const char *felt = NULL;
+            char felt[KNURL_NAME_SIZE];
             assert_true(isfinite(length3(out.force)));
-            assert_true(out.surface == 0 || knurl_scene_get_surface_name(scene, out.surface, &felt) == KNURL_OK);
+            assert_true(out.surface == 0 || knurl_scene_get_surface_name(scene, out.surface, felt) == KNURL_OK);
         }
     }
 }

@@ -94,6 +94,38 @@ TEST(a_workspace_is_whole_while_its_hip_is_configured_anew) {
     assert_true(torn == 0);
 }
 
+/* --- a surface's name and report while it is replaced --- */
+
+static knurl_surface_id renamed;
+
+static void *read_names(void *user) {
+    while (!is_over()) {
+        char name[KNURL_NAME_SIZE];
+        if (knurl_scene_get_surface_name(user, renamed, name) != KNURL_OK ||
+            (strcmp(name, "a short name") != 0 && strcmp(name, "another name, which is longer") != 0)) {
+            knurl_count_up(&torn);
+        }
+    }
+    return NULL;
+}
+
+static void rename_surface(void *user) {
+    static uint32_t number;
+    surface_parts parts = surface_plane();
+    parts.desc.name = number++ % 2 ? "a short name" : "another name, which is longer";
+    assert_int_equal(knurl_scene_replace_surface(user, renamed, surface_ready(&parts)), KNURL_OK);
+}
+
+TEST(a_name_is_whole_while_its_surface_is_replaced) {
+    surface_parts parts = surface_plane();
+    SCOPED_SCENE *scene = empty_scene(1);
+    parts.desc.name = "a short name";
+    renamed = add_surface(scene, &parts);
+    torn = 0;
+    together(read_names, rename_surface, scene);
+    assert_true(torn == 0);
+}
+
 /* --- effects that are replaced while their HIP ticks --- */
 
 /* Along x and z the same force: 0 to 4 effects of 0.1 N each. */

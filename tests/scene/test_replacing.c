@@ -106,8 +106,8 @@ TEST(it_is_felt_where_it_is_now) {
         if (!committed) {
             assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
         }
-        const char *name = "";
-        assert_int_equal(knurl_scene_get_surface_name(scene, id, &name), KNURL_OK);
+        char name[KNURL_NAME_SIZE] = "";
+        assert_int_equal(knurl_scene_get_surface_name(scene, id, name), KNURL_OK);
         assert_string_equal(name, "longer");
         assert_int_equal(knurl_scene_get_surface_count(scene), 1);
         (void)tick_at(scene, 0.3, 0.0, 0.01);

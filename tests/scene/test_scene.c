@@ -27,10 +27,10 @@ TEST(life_goes_from_create_to_tick) {
     assert_true(knurl_scene_get_surface(scene, 0) == first);
     assert_true(knurl_scene_get_surface(scene, 1) == second);
     assert_true(knurl_scene_get_surface(scene, 2) == 0);
-    const char *name = NULL;
-    assert_int_equal(knurl_scene_get_surface_name(scene, first, &name), KNURL_OK);
+    char name[KNURL_NAME_SIZE] = "";
+    assert_int_equal(knurl_scene_get_surface_name(scene, first, name), KNURL_OK);
     assert_string_equal(name, "first");
-    assert_int_equal(knurl_scene_get_surface_name(scene, second, &name), KNURL_OK);
+    assert_int_equal(knurl_scene_get_surface_name(scene, second, name), KNURL_OK);
     assert_string_equal(name, "");
     assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
     assert_true((tick_at(scene, 0.0, 0.0, -0.001).flags & KNURL_TICK_CONTACT) != 0);
@@ -74,10 +74,27 @@ TEST(a_scene_is_committed_once) {
     assert_int_equal(knurl_scene_get_surface_count(scene), 1);
 }
 
+TEST(a_long_name_is_cut_between_characters) {
+    char given[302] = "a", name[KNURL_NAME_SIZE];
+    surface_parts parts = surface_plane();
+    SCOPED_SCENE *scene = empty_scene(1);
+    for (int i = 1; i < 301; i += 3) {
+        memcpy(given + i, "\xe2\x82\xac", 3); /* the sign of the euro */
+    }
+    parts.desc.name = given;
+    assert_int_equal(knurl_scene_get_surface_name(scene, add_surface(scene, &parts), name), KNURL_OK);
+    assert_int_equal(strlen(name), 253);
+    assert_memory_equal(name, given, 253);
+    memset(given, 'b', 255);
+    given[255] = 0;
+    assert_int_equal(knurl_scene_get_surface_name(scene, add_surface(scene, &parts), name), KNURL_OK);
+    assert_string_equal(name, given);
+}
+
 TEST(ids_of_removed_surfaces_stay_stale) {
     surface_parts parts = surface_plane();
     SCOPED_SCENE *scene = empty_scene(1);
-    const char *name = "untouched";
+    char name[KNURL_NAME_SIZE] = "untouched";
     knurl_surface_info info;
     knurl_surface_info_init(&info, sizeof info);
     const knurl_surface_id kept = add_surface(scene, &parts);
@@ -89,25 +106,25 @@ TEST(ids_of_removed_surfaces_stay_stale) {
     for (size_t i = 0; i < COUNT_OF(stale); i++) {
         CHECK_REFUSED(knurl_scene_remove_surface(scene, stale[i]), KNURL_ERROR_STALE_ID, name);
         CHECK_REFUSED(knurl_scene_set_material(scene, stale[i], &parts.material), KNURL_ERROR_STALE_ID, name);
-        CHECK_REFUSED(knurl_scene_get_surface_name(scene, stale[i], &name), KNURL_ERROR_STALE_ID, name);
+        CHECK_REFUSED(knurl_scene_get_surface_name(scene, stale[i], name), KNURL_ERROR_STALE_ID, name);
         CHECK_REFUSED(knurl_scene_get_surface_info(scene, stale[i], &info), KNURL_ERROR_STALE_ID, info);
     }
-    assert_int_equal(knurl_scene_get_surface_name(scene, kept, &name), KNURL_OK);
-    assert_int_equal(knurl_scene_get_surface_name(scene, next, &name), KNURL_OK);
+    assert_int_equal(knurl_scene_get_surface_name(scene, kept, name), KNURL_OK);
+    assert_int_equal(knurl_scene_get_surface_name(scene, next, name), KNURL_OK);
 }
 
 TEST(an_id_of_another_scene_is_stale_and_says_so) {
     surface_parts parts = surface_plane();
     knurl_scene *scenes[2] = {empty_scene(1), empty_scene(1)};
     knurl_surface_id ids[2];
-    const char *name = NULL;
+    char name[KNURL_NAME_SIZE] = "";
     for (int i = 0; i < 2; i++) {
         ids[i] = add_surface(scenes[i], &parts); /* both of them at their scene's first place */
     }
     for (int i = 0; i < 2; i++) {
         CHECK_REFUSED(knurl_scene_remove_surface(scenes[i], ids[1 - i]), KNURL_ERROR_STALE_ID, parts);
         check_message("another scene's");
-        CHECK_REFUSED(knurl_scene_get_surface_name(scenes[i], ids[1 - i], &name), KNURL_ERROR_STALE_ID, name);
+        CHECK_REFUSED(knurl_scene_get_surface_name(scenes[i], ids[1 - i], name), KNURL_ERROR_STALE_ID, name);
         assert_int_equal(knurl_scene_get_surface_count(scenes[i]), 1);
         CHECK_REFUSED(knurl_scene_remove_surface(scenes[i], 1), KNURL_ERROR_STALE_ID, parts);
         check_message("names no surface");

@@ -88,9 +88,9 @@ class Surface:
 
     @property
     def name(self) -> str:
-        name = ffi.new("const char **")
+        name = ffi.new("char[]", lib.KNURL_NAME_SIZE)
         check(lib.knurl_scene_get_surface_name(self._scene.handle, self.id, name))
-        return ffi.string(name[0]).decode()
+        return ffi.string(name).decode()
 
     @property
     def material(self) -> Material:

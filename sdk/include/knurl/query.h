@@ -19,9 +19,13 @@ KNURL_API knurl_surface_id knurl_scene_get_surface(const knurl_scene *scene, uin
  * names. [any thread] */
 KNURL_API knurl_result knurl_scene_find_surface(const knurl_scene *scene, const char *name, knurl_surface_id *surface);
 
-/** A surface's name; the scene's, valid while the surface exists. Errors: KNURL_ERROR_STALE_ID. [any thread] */
+/** Bytes of a surface's name as it is reported, with the final 0; longer names are cut between characters. */
+#define KNURL_NAME_SIZE 256
+
+/** Copies a surface's name to `name`, KNURL_NAME_SIZE bytes of the caller's. Errors: KNURL_ERROR_STALE_ID.
+ * [any thread but the haptic] */
 KNURL_API knurl_result knurl_scene_get_surface_name(const knurl_scene *scene, knurl_surface_id surface,
-                                                    const char **name);
+                                                    char name[KNURL_NAME_SIZE]);
 
 /** A surface as built by the scene. An output: set struct_size with knurl_surface_info_init() first. */
 typedef struct knurl_surface_info {
@@ -31,7 +35,7 @@ typedef struct knurl_surface_info {
     uint32_t double_sided;      /**< 1: as given, or because triangles with a reversed twin are more than a tenth of the
                                    mesh's area (fewer are taken for mistakes), or because mixed winding leaves it
                                    without a front (halves of the same area, a Moebius strip) */
-    const char *name;           /**< the scene's, valid while the surface exists */
+    char name[KNURL_NAME_SIZE]; /**< as from knurl_scene_get_surface_name() */
     const char *shape;          /**< "plane" or "mesh", as given; static */
     const char *model;          /**< the model that ticks use: "plane", "plane+outline" or "mesh+bvh"; static */
     uint64_t bytes; /**< memory of this surface in the scene; if its shape is shared (knurl_surface_desc.shape_of), its

@@ -90,8 +90,8 @@ KNURL_API void knurl_scene_desc_init(knurl_scene_desc *desc, uint32_t size);
 KNURL_API knurl_result knurl_scene_create(const knurl_scene_desc *desc, knurl_scene **scene);
 
 /** Destroys a scene and frees its memory; null is allowed. A loop that uses the scene ends by itself with zero force,
- * and the memory is freed when the last such loop is destroyed. Do not use the handle or the surfaces' names
- * afterwards, and do not tick the scene. [game thread, or any while no other thread uses the scene] */
+ * and the memory is freed when the last such loop is destroyed. Do not use the handle afterwards, and
+ * do not tick the scene. [game thread, or any while no other thread uses the scene] */
 KNURL_API void knurl_scene_destroy(knurl_scene *scene);
 
 /** Checks, copies and adds a surface, before or after the commit.
@@ -107,7 +107,7 @@ KNURL_API knurl_result knurl_scene_remove_surface(knurl_scene *scene, knurl_surf
 
 /** Replaces a surface under the same id, before or after the commit: shape, sides, axis, name, material and pose. A
  * contact continues, as after a jump (knurl_scene_set_transform() with 0 seconds), if the HIP is at most 10 mm behind
- * the new surface. The old name becomes invalid.
+ * the new surface.
  * Errors: KNURL_ERROR_STALE_ID and those of knurl_scene_add_surface() except KNURL_ERROR_FULL; the old surface is kept
  * in that case. [any thread but the haptic] */
 KNURL_API knurl_result knurl_scene_replace_surface(knurl_scene *scene, knurl_surface_id surface,

@@ -56,8 +56,10 @@ typedef struct knurl_mesh {
     double axis[3];       /* unit */
     double uv_scale[2];   /* su, sv: means of |dP/du|, |dP/dv|, m (uv_scale.c); 0 without uvs */
     knurl_shape_facts facts;
-    knurl_mesh_facets facets; /* no edges: not counted yet. Guarded by the scene's lock */
-    uint32_t other_users;     /* atomic: shapes that share it, not counting the first */
+    knurl_mesh_facets facets; /* guarded by the scene's lock, as the next two */
+    uint32_t are_facets_counted;
+    uint32_t facet_counts; /* threads that count them now; each is one of the other users */
+    uint32_t other_users;  /* atomic: shapes that share it, not counting the first */
 } knurl_mesh;
 
 /* Geometry of one triangle, as used by contact. */

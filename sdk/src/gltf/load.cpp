@@ -54,8 +54,8 @@ class Names {
     /// Starts with the names of the scene's surfaces.
     explicit Names(const knurl_scene *scene) {
         for (uint32_t i = 0; i < knurl_scene_get_surface_count(scene); ++i) {
-            const char *name = nullptr;
-            if (knurl_scene_get_surface_name(scene, knurl_scene_get_surface(scene, i), &name) == KNURL_OK)
+            char name[KNURL_NAME_SIZE]; // not cut if it can be a file's, which has at most 255 bytes
+            if (knurl_scene_get_surface_name(scene, knurl_scene_get_surface(scene, i), name) == KNURL_OK)
                 taken_.emplace(name, 1);
         }
     }

@@ -281,14 +281,28 @@ knurl_result knurl_scene_find_surface(const knurl_scene *scene, const char *name
     return KNURL_OK;
 }
 
-knurl_result knurl_scene_get_surface_name(const knurl_scene *scene, knurl_surface_id surface, const char **name) {
+void knurl_scene_copy_name(const knurl_surface_data *surface, char name[KNURL_NAME_SIZE]) {
+    size_t length = strlen(surface->name);
+    if (length >= KNURL_NAME_SIZE) {
+        length = KNURL_NAME_SIZE - 1;
+        while (length > 0 &&
+               ((unsigned char)surface->name[length] & 0xC0u) == 0x80u) { /* within a character of UTF-8 */
+            length--;
+        }
+    }
+    memcpy(name, surface->name, length);
+    name[length] = 0;
+}
+
+knurl_result knurl_scene_get_surface_name(const knurl_scene *scene, knurl_surface_id surface,
+                                          char name[KNURL_NAME_SIZE]) {
     if (KNURL_IS_NULL(name)) {
         return KNURL_ERROR_ARGUMENT;
     }
     knurl_surface_data *data;
     const knurl_result result = knurl_scene_lock_surface(scene, surface, &data);
     if (!result) {
-        *name = data->name;
+        knurl_scene_copy_name(data, name);
         knurl_scene_unlock(scene);
     }
     return result;

@@ -37,6 +37,9 @@ void knurl_scene_unlock(const knurl_scene *scene);
  * KNURL_ERROR_STALE_ID. */
 knurl_result knurl_scene_lock_surface(const knurl_scene *scene, knurl_surface_id id, knurl_surface_data **surface);
 
+/* Call it with the scene locked. */
+void knurl_scene_copy_name(const knurl_surface_data *surface, char name[KNURL_NAME_SIZE]);
+
 /* s: the time of the HIP that is ahead. */
 double knurl_scene_time(const knurl_scene *scene);
 

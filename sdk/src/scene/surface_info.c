@@ -71,16 +71,17 @@ static void describe_model(const knurl_surface_data *surface, knurl_surface_info
     info->uneven = facts->uneven;
     info->projection_seams = facts->projection_seams;
     info->smooth = surface->shape.smooth;
+    uint32_t users = 1 + knurl_load_relaxed(knurl_shape_other_users(&surface->shape));
     if (mesh) {
         describe_facets(&mesh->facets, info);
+        users -= mesh->facet_counts;
     }
     if (plane || (mesh->uvs && !mesh->has_axis)) {
         memcpy(info->uv_scale, plane ? plane->uv_scale : mesh->uv_scale, sizeof info->uv_scale);
     }
     info->double_sided = (uint32_t)surface->double_sided;
     info->bytes = knurl_heap_size(surface) + knurl_heap_size(surface->record) + knurl_heap_size(surface->name) +
-                  (plane ? knurl_plane_bytes(plane) : knurl_mesh_bytes(mesh)) /
-                      (1 + knurl_load_relaxed(knurl_shape_other_users(&surface->shape)));
+                  (plane ? knurl_plane_bytes(plane) : knurl_mesh_bytes(mesh)) / users;
     memcpy(info->stretch, facts->stretch[0], sizeof facts->stretch[0]);
     memcpy(info->stretch_y, facts->stretch[1], sizeof facts->stretch[1]);
 }
@@ -89,7 +90,7 @@ static void describe_model(const knurl_surface_data *surface, knurl_surface_info
 static void describe(const knurl_scene *scene, const knurl_surface_data *surface, knurl_surface_info *info) {
     knurl_pose pose;
     memset(info, 0, sizeof *info);
-    info->name = surface->name;
+    knurl_scene_copy_name(surface, info->name);
     vec3_copy(surface->axis, info->axis);
     const double now = knurl_scene_time(scene);
     knurl_motion_at(&surface->record->motion, now, &pose);
@@ -98,17 +99,31 @@ static void describe(const knurl_scene *scene, const knurl_surface_data *surface
     describe_anchor(surface, &pose, info);
 }
 
-/* Counts the edges of a mesh for the first time, without the scene's lock: edits do not wait. shape: shared, so that
- * the mesh outlives its surface; released here. */
-static void count_facets(const knurl_scene *scene, const knurl_shape *shape, knurl_surface_info *info) {
-    knurl_mesh *mesh = shape->mesh;
+/* Unlocks the scene, whose edits need not wait, and counts the edges of a mesh for the first time. */
+static void unlock_and_count(const knurl_scene *scene, const knurl_shape *of, knurl_surface_info *info) {
+    const knurl_shape shape = knurl_shape_share(of); /* the mesh may outlive its surface */
+    knurl_mesh *mesh = shape.mesh;
     knurl_mesh_facets facets;
+    mesh->facet_counts++;
+    knurl_scene_unlock(scene);
     knurl_mesh_count_facets(mesh, &facets);
     describe_facets(&facets, info);
     knurl_scene_lock(scene);
     mesh->facets = facets;
+    mesh->are_facets_counted = 1;
+    mesh->facet_counts--;
+    const int is_last = knurl_load_relaxed(knurl_shape_other_users(&shape)) == 0;
+    if (!is_last) { /* while no other thread can count the users */
+        knurl_shape_destroy(scene->surfaces.heap, &shape);
+    }
     knurl_scene_unlock(scene);
-    knurl_shape_destroy(scene->surfaces.heap, shape);
+    if (is_last) { /* frees the mesh, for which edits need not wait */
+        knurl_shape_destroy(scene->surfaces.heap, &shape);
+    }
+}
+
+static int needs_count(const knurl_shape *shape) {
+    return shape->mesh && !shape->mesh->are_facets_counted;
 }
 
 knurl_result knurl_scene_get_surface_info(const knurl_scene *scene, knurl_surface_id surface,
@@ -123,11 +138,10 @@ knurl_result knurl_scene_get_surface_info(const knurl_scene *scene, knurl_surfac
         return result;
     }
     describe(scene, data, &made);
-    const int is_counted = data->shape.plane || made.edges > 0;
-    const knurl_shape shape = is_counted ? data->shape : knurl_shape_share(&data->shape);
-    knurl_scene_unlock(scene);
-    if (!is_counted) {
-        count_facets(scene, &shape, &made);
+    if (needs_count(&data->shape)) {
+        unlock_and_count(scene, &data->shape, &made);
+    } else {
+        knurl_scene_unlock(scene);
     }
     return knurl_desc_return("knurl_surface_info", &made, sizeof made, info);
 }

@@ -48,14 +48,13 @@ namespace Knurl
         }
 
         /// <summary>Starts a contact. Handlers get null for a file's surface. They are not called for a surface that
-        /// was
-        /// removed meanwhile.</summary>
+        /// was removed
+        /// meanwhile.</summary>
         unsafe void Touch(ulong id)
         {
-            byte* ignored;
             KnurlSurface surface = following.Find(id);
-            if ((object)surface == null && NativeMethods.knurl_scene_get_surface_name(
-                NativeMethods.knurl_session_get_scene(session), id, &ignored) != NativeMethods.KNURL_OK)
+            if ((object)surface == null && NativeMethods.knurl_scene_has_surface(
+                NativeMethods.knurl_session_get_scene(session), id) == 0)
             {
                 return;
             }

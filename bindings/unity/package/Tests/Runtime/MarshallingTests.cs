@@ -286,8 +286,8 @@ namespace Knurl.Tests
                     desc.name = name;
                     KnurlException.Check(NativeMethods.knurl_scene_add_surface(scene, &desc, &surface));
                 }
-                byte* found = null;
-                KnurlException.Check(NativeMethods.knurl_scene_get_surface_name(scene, surface, &found));
+                byte* found = stackalloc byte[NativeMethods.KNURL_NAME_SIZE];
+                KnurlException.Check(NativeMethods.knurl_scene_get_surface_name(scene, surface, found));
                 Assert.AreEqual(text, Utf8.Read(found));
             }
             finally
