@@ -6,6 +6,7 @@
 #include "surface_node.h"
 #include "warnings.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -114,4 +115,22 @@ void preview_surface(surface *s, const knurl_session_pose *at, char *text, size_
     const int may_change =
         !can_be_felt && geometry_is_made_later(surface_parent(s)); /* and there is no signal for it */
     s->explained = s->explanation && !may_change ? key : 0;
+}
+
+static double determinant_of(const double m[9]) {
+    return m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6]) + m[2] * (m[3] * m[7] - m[4] * m[6]);
+}
+
+void preview_uv_scale(surface *s, const knurl_session_pose *at, double scale[2]) {
+    knurl_session *session = NULL;
+    knurl_surface_id id = 0;
+    knurl_surface_info info;
+    knurl_surface_info_init(&info, sizeof info);
+    if (!knurl_session_create(&session) && !surface_put(s, knurl_session_get_scene(session), at, 0, &id)) {
+        (void)knurl_scene_get_surface_info(knurl_session_get_scene(session), id, &info);
+    }
+    const double size = cbrt(fabs(determinant_of(at->rest))); /* which uvs were multiplied by (mesh.c) */
+    scale[0] = size * info.uv_scale[0];
+    scale[1] = size * info.uv_scale[1];
+    knurl_session_destroy(session);
 }

@@ -1,9 +1,12 @@
 /* KnurlSurface: a mesh that can be felt. SPDX-License-Identifier: MIT */
 #include "explain.h"
 #include "follow.h"
+#include "geometry.h"
+#include "preview.h"
 #include "serve.h"
 #include "shapes.h"
 #include "signals.h"
+#include "surface_node.h"
 #include "warnings.h"
 #include "watch.h"
 
@@ -94,6 +97,23 @@ static void get_triangle_count(void *self, const void *const *arguments, void *r
         }
     }
     memcpy(result, &count, sizeof count);
+}
+
+/* Metres for each unit of u and v, for what draws the ridges. */
+static void get_uv_scale(void *self, const void *const *arguments, void *result) {
+    surface *s = self;
+    float found[2] = {0.0F, 0.0F};
+    char refusal[512];
+    knurl_session_pose at;
+    (void)arguments;
+    geometry_refuse(surface_parent(s), refusal, sizeof refusal);
+    if (s->grating && !refusal[0] && node_pose(s->base.object, &at)) {
+        double scale[2];
+        preview_uv_scale(s, &at, scale);
+        found[0] = (float)scale[0];
+        found[1] = (float)scale[1];
+    }
+    memcpy(result, found, sizeof found);
 }
 
 static void get_warnings(void *self, const void *const *arguments, void *result) {
@@ -246,6 +266,7 @@ static const gd_property properties[] = {
 
 static const gd_method_row methods[] = {
     {"get_triangle_count", GDEXTENSION_VARIANT_TYPE_INT, NULL, get_triangle_count, 0, {{0}}},
+    {"get_uv_scale", GDEXTENSION_VARIANT_TYPE_VECTOR2, NULL, get_uv_scale, 0, {{0}}},
     {"get_warnings", GDEXTENSION_VARIANT_TYPE_PACKED_STRING_ARRAY, NULL, get_warnings, 0, {{0}}},
     {"update_mesh", GDEXTENSION_VARIANT_TYPE_NIL, NULL, update_mesh, 0, {{0}}},
     {"is_touched", GDEXTENSION_VARIANT_TYPE_BOOL, NULL, is_touched, 0, {{0}}},

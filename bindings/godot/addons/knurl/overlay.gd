@@ -2,8 +2,8 @@
 class_name KnurlOverlay
 extends Node
 ## Draws the ridges of a [KnurlSurface] over its mesh, as they will be felt: period, orientation,
-## grid. On a [MeshInstance3D], [MultiMeshInstance3D] and [CSGShape3D], on uvs or an axis; it does not
-## draw box coordinates, whose phase the haptic scene finds, and not on a [GridMap].
+## grid. On a [MeshInstance3D], [MultiMeshInstance3D], [CSGShape3D] and [GridMap], on uvs or an axis; it
+## does not draw box coordinates, whose phase the haptic scene finds.
 ##
 ## [codeblock]
 ## KnurlOverlay.set_shown(get_tree().root, true) # on all surfaces below; false removes it
@@ -13,14 +13,15 @@ extends Node
 ## stay as they are.
 
 const SHADER := preload("overlay.gdshader")
+const Cells := preload("overlay_cells.gd")
 const NAME := &"KnurlOverlay"
-## Meshes with more triangles are sampled, because the uv scale is only a mean: the editor stays
-## responsive.
-const MEASURED_TRIANGLES := 50000
 
 var _material := ShaderMaterial.new()
 var _drawn_on := RID()
-var _measured: Array = []  # the mesh and the basis that uv_scale was measured on
+var _cells := Cells.new()
+var _uv_scale := Vector2.ZERO  # m for each unit of u and v; of this mesh, at this size:
+var _mesh: Mesh
+var _size := Basis()
 var _shown: Array = []  # the material's current parameters
 
 
@@ -44,38 +45,6 @@ static func find_on(surface: KnurlSurface) -> Node:
 	return surface.get_node_or_null(NodePath(NAME))
 
 
-## Metres per u and v: the area-weighted means of |dP/du| and |dP/dv| over all triangles, as in
-## Knurl.
-## [param basis]: the mesh's scale. Zero if there are no uvs.
-static func measure_uvs(mesh: Mesh, basis: Basis) -> Vector2:
-	var sum := Vector2.ZERO
-	var area := 0.0
-	for i: int in mesh.get_surface_count():
-		var arrays: Array = mesh.surface_get_arrays(i)
-		if arrays[Mesh.ARRAY_TEX_UV] == null:
-			continue
-		var places: PackedVector3Array = arrays[Mesh.ARRAY_VERTEX]
-		var uvs: PackedVector2Array = arrays[Mesh.ARRAY_TEX_UV]
-		var corners: PackedInt32Array = (
-			arrays[Mesh.ARRAY_INDEX] if arrays[Mesh.ARRAY_INDEX] else range(places.size())
-		)
-		@warning_ignore("integer_division")
-		var stride: int = 3 * (1 + corners.size() / 3 / MEASURED_TRIANGLES)
-		for at: int in range(0, corners.size() - 2, stride):
-			var a: int = corners[at]
-			var edge1: Vector3 = basis * (places[corners[at + 1]] - places[a])
-			var edge2: Vector3 = basis * (places[corners[at + 2]] - places[a])
-			var uv1: Vector2 = uvs[corners[at + 1]] - uvs[a]
-			var uv2: Vector2 = uvs[corners[at + 2]] - uvs[a]
-			var det: float = uv1.cross(uv2)
-			if absf(det) > 1e-9 * pow(absf(uv1.x) + absf(uv1.y) + absf(uv2.x) + absf(uv2.y), 2.0):
-				var size: float = edge1.cross(edge2).length() * stride
-				sum.x += size * ((uv2.y * edge1 - uv1.y * edge2) / det).length()
-				sum.y += size * ((uv1.x * edge2 - uv2.x * edge1) / det).length()
-				area += size
-	return sum / area if area > 0.0 else Vector2.ZERO
-
-
 func _init() -> void:
 	_material.shader = SHADER
 
@@ -87,34 +56,32 @@ func _enter_tree() -> void:
 
 func _exit_tree() -> void:
 	_draw_on(null)
+	_cells.follow(null)
 
 
 ## Polls each frame instead of using signals, because a surface's mesh, scale and grating may all
 ## change.
 func _process(_delta: float) -> void:
 	var surface := get_parent() as KnurlSurface
-	var parent := surface.get_parent() as GeometryInstance3D
-	var mesh: Mesh = _mesh_of(parent)
-	if mesh == null or surface.grating == null or not surface.enabled or surface.box_coordinates:
-		_draw_on(null)
-		return
-	var basis: Basis = parent.global_basis
-	if _measured != [mesh, basis]:
-		_measured = [mesh, basis]
-		_material.set_shader_parameter(&"uv_scale", measure_uvs(mesh, basis))
-		_material.set_shader_parameter(&"volume", absf(basis.determinant()))
-	var by_axis: bool = not surface.axis.is_zero_approx()
-	var has_coordinates: bool = (
-		by_axis or _material.get_shader_parameter(&"uv_scale") != Vector2.ZERO
+	var node := surface.get_parent() as Node3D
+	var is_drawn: bool = (
+		surface.grating != null
+		and surface.enabled
+		and not surface.box_coordinates
+		and _measure(surface, node)
 	)
-	_draw_on(parent if has_coordinates else null)
+	var by_axis: bool = not surface.axis.is_zero_approx()
+	if not is_drawn or not (by_axis or _uv_scale != Vector2.ZERO):
+		_draw_on(null)
+		_cells.hide()
+		return
+	_draw_on(node as GeometryInstance3D)
+	if node is GridMap:
+		_cells.draw(_material.get_rid())
 	var grating: KnurlGrating = surface.grating
+	var overlay: Material = node.material_overlay if node is GeometryInstance3D else null
 	var values: Array = [
-		grating.spatial_frequency,
-		grating.orientation,
-		surface.axis,
-		surface.double_sided,
-		parent.material_overlay,
+		grating.spatial_frequency, grating.orientation, surface.axis, surface.double_sided, overlay
 	]
 	if values == _shown:
 		return
@@ -124,9 +91,26 @@ func _process(_delta: float) -> void:
 	_material.set_shader_parameter(&"axis", surface.axis)
 	_material.set_shader_parameter(&"by_axis", by_axis)
 	_material.set_shader_parameter(&"double_sided", surface.double_sided)
-	_material.next_pass = parent.material_overlay  # the mesh's own overlay is drawn after it
+	_material.next_pass = overlay  # the mesh's own overlay is drawn after it
 	if _drawn_on.is_valid():
 		RenderingServer.instance_geometry_set_material_overlay(_drawn_on, _material.get_rid())
+
+
+## Asks for the scale of the uvs again if a node's meshes or its size are others. Returns false if it
+## has no mesh to draw on.
+func _measure(surface: KnurlSurface, node: Node3D) -> bool:
+	var is_other: bool = _cells.follow(node as GridMap)
+	var mesh: Mesh = _mesh_of(node as GeometryInstance3D)
+	var size: Basis = node.global_basis.transposed() * node.global_basis  # without its rotation
+	if (mesh == null and _cells.pairs.is_empty()) or size.determinant() == 0.0:
+		return false
+	if is_other or mesh != _mesh or not (size * _size.inverse()).is_equal_approx(Basis()):
+		_mesh = mesh
+		_size = size
+		_uv_scale = surface.get_uv_scale()
+		_material.set_shader_parameter(&"uv_scale", _uv_scale)
+		_material.set_shader_parameter(&"volume", absf(node.global_basis.determinant()))
+	return true
 
 
 ## A node's drawn mesh, or null.

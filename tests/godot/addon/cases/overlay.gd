@@ -150,11 +150,11 @@ func expect_fade() -> void:
 ## Nodes other than mesh instances: as many ridges are drawn as are felt, and as there are.
 func expect_others() -> void:
 	var many := MultiMeshInstance3D.new()
-	var tile := PlaneMesh.new()
-	tile.size = Vector2(0.008, 0.008)
+	var plane := PlaneMesh.new()
+	plane.size = Vector2(0.008, 0.008)
 	many.multimesh = MultiMesh.new()
 	many.multimesh.transform_format = MultiMesh.TRANSFORM_3D
-	many.multimesh.mesh = tile
+	many.multimesh.mesh = plane
 	many.multimesh.instance_count = 2
 	many.multimesh.set_instance_transform(0, Transform3D(Basis(), Vector3(-0.01, 0, 0)))
 	many.multimesh.set_instance_transform(
@@ -170,6 +170,60 @@ func expect_others() -> void:
 	show_ridges(box, Vector2(0, 1000))  # v runs along x on its top
 	await expect_ridges("a CSG box", -0.009, 0.009, 18.0)
 	box.free()
+	await expect_stretched()
+	await expect_cells()
+
+
+func tile(size: Vector2, offset: float, uv_factor: float) -> Array:
+	var plane := PlaneMesh.new()
+	plane.size = size
+	plane.center_offset.x = offset
+	var arrays: Array = plane.get_mesh_arrays()
+	for i: int in arrays[Mesh.ARRAY_TEX_UV].size():
+		arrays[Mesh.ARRAY_TEX_UV][i] *= uv_factor
+	return arrays
+
+
+## A small triangle with stretched uvs does not change the ridges of the rest: it would change the mean.
+func expect_stretched() -> void:
+	var node := MeshInstance3D.new()
+	var mesh := ArrayMesh.new()
+	mesh.add_surface_from_arrays(Mesh.PRIMITIVE_TRIANGLES, tile(Vector2(0.02, 0.02), 0.0, 1.0))
+	mesh.add_surface_from_arrays(Mesh.PRIMITIVE_TRIANGLES, tile(Vector2(0.002, 0.02), 0.012, 1e-4))
+	node.mesh = mesh
+	show_ridges(node, Vector2(1000, 0))
+	await expect_ridges("a plate beside a stretched strip", -0.009, 0.009, 18.0)
+	node.free()
+
+
+## A grid map of two meshes, one of which has twice as many metres per u: Knurl feels their mean,
+## 0.012 m for each u of both. Then a cell is painted, as a game does.
+func expect_cells() -> void:
+	var grid := GridMap.new()
+	grid.mesh_library = MeshLibrary.new()
+	grid.cell_size = Vector3(0.008, 0.008, 0.008)
+	for item: int in 2:
+		var mesh := ArrayMesh.new()
+		var arrays: Array = tile(Vector2(0.008, 0.008), 0.0, 1.0 if item == 0 else 0.5)
+		mesh.add_surface_from_arrays(Mesh.PRIMITIVE_TRIANGLES, arrays)
+		grid.mesh_library.create_item(item)
+		grid.mesh_library.set_item_mesh(item, mesh)
+	grid.position.y = -0.004
+	grid.set_cell_item(Vector3i(-1, 0, 0), 0)
+	grid.set_cell_item(Vector3i(0, 0, 0), 1)
+	var before: Image = await picture()
+	show_ridges(grid, Vector2(1000, 0))
+	await expect_ridges("a cell", -0.0076, -0.0004, 10.8)
+	await expect_ridges("a cell of another mesh", 0.0004, 0.0076, 5.4)
+	grid.position.x = 0.004
+	await expect_ridges("a cell of a map that was moved", -0.0036, 0.0036, 10.8)
+	grid.position.x = 0.0
+	grid.set_cell_item(Vector3i(1, 0, 0), 0)
+	await create_timer(0.3).timeout  # the overlay looks four times a second
+	await expect_ridges("a cell that is painted", 0.0084, 0.0156, 9.6)
+	grid.visible = false
+	checks.check((await picture()).get_data() == before.get_data(), "a hidden map has no ridges")
+	grid.free()
 
 
 func show_ridges(node: Node3D, frequency: Vector2) -> void:

@@ -54,13 +54,19 @@ namespace Knurl
         /// <summary>Number of triangles that are felt; 0 if the surface is in no running device's scene.</summary>
         public long GetTriangleCount() { return Object.Call("get_triangle_count").AsInt64(); }
 
+        /// <summary>Metres along the surface for each unit of u and v, at the parent's scale, as ridges are laid out:
+        /// the mean by area, without triangles whose UVs are much larger or smaller than most. (0, 0) if the ridges do
+        /// not follow UVs. Reads the mesh at each call.</summary>
+        public Vector2 GetUvScale() { return Object.Call("get_uv_scale").AsVector2(); }
+
         /// <summary>Why this surface cannot be felt, differs from its settings, or is not felt where it is drawn: one
         /// sentence each. Empty if there are no problems. In the editor it is checked against the limits of every
         /// KnurlDevice in the scene, in a game against the running devices. These also print the warnings when they
         /// start, each one once; surfaces out of reach are reported only if all of them are.</summary>
         public string[] GetWarnings() { return Object.Call("get_warnings").AsStringArray(); }
 
-        /// <summary>Reads its parent's triangles again in the next frame. Not needed for a MeshInstance3D.</summary>
+        /// <summary>Reads its parent's triangles again in the next frame. Not needed for a MeshInstance3D or
+        /// GridMap.</summary>
         public void UpdateMesh() { Object.Call("update_mesh"); }
 
         /// <summary>true if a device touched it in the last frame. If several surfaces are in contact, only the one

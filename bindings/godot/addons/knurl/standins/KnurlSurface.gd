@@ -109,6 +109,10 @@ func get_triangle_count() -> int:
 	return 0
 
 
+func get_uv_scale() -> Vector2:
+	return Vector2.ZERO
+
+
 func get_warnings() -> PackedStringArray:
 	return ["this platform has no library of Knurl's: nothing is felt"]
 
