@@ -27,7 +27,8 @@ func _notification(what: int) -> void:
 # Results of methods, if not the zero of their type.
 RESULTS = {"start": "ERR_UNAVAILABLE", "load_gltf": "-1", "get_status": '{"running": false}',
            "get_warnings": f'["{REASON}"]'}
-ZEROS = {"bool": "false", "int": "0", "float": "0.0", "String": '""', "Array": "[]", "Dictionary": "{}"}
+ZEROS = {"bool": "false", "int": "0", "float": "0.0", "String": '""', "Array": "[]", "Dictionary": "{}",
+         "Vector2": "Vector2.ZERO"}
 
 
 def type_of(element):

@@ -13,6 +13,7 @@ const ACTIVE := "res://addons/knurl/standins_active/"
 const EXTENSION := "res://addons/knurl/knurl.gdextension"
 const BASES := {"KnurlGrating": "Resource", "KnurlSurface": "Node3D", "KnurlDevice": "Node3D", "KnurlEffect": "Node3D"}
 const LOADER := "KnurlStandinLoader"
+const MARK := "\u0001%d\u0001"  # no scene contains this character
 
 
 ## True if a text scene or resource has to be converted.
@@ -22,9 +23,10 @@ static func is_needed(text: String) -> bool:
 
 ## A text scene or resource (.tscn, .tres) without Knurl's classes.
 static func convert(text: String) -> String:
+	var strings: PackedStringArray = []
 	var used: Dictionary = {}
 	var blocks: PackedStringArray = []
-	for block: String in ("\n" + text).split("\n["):
+	for block: String in ("\n" + _take_strings(text, strings)).split("\n["):
 		blocks.append(_convert_block(block, used))
 	var scripts := ""
 	for type: String in used:
@@ -33,7 +35,41 @@ static func convert(text: String) -> String:
 	if not scripts.is_empty():
 		# blocks: "" or a comment, the header, the rest
 		blocks[1] = blocks[1].rstrip("\n") + "\n\n" + scripts
-	return "\n[".join(blocks).substr(1)
+	return _put_strings("\n[".join(blocks).substr(1), strings)
+
+
+## Replaces strings of several lines, which may look like nodes, by their numbers.
+static func _take_strings(text: String, strings: PackedStringArray) -> String:
+	var parts: PackedStringArray = []
+	var from := 0  # of what is not in parts yet
+	var begin: int = text.find('"')
+	while begin >= 0:
+		var end: int = text.find('"', begin + 1)
+		while end >= 0 and _is_escaped(text, end):
+			end = text.find('"', end + 1)
+		if end < 0:
+			break
+		var string: String = text.substr(begin, end + 1 - begin)
+		if string.contains("\n"):
+			parts.append(text.substr(from, begin - from) + MARK % strings.size())
+			strings.append(string)
+			from = end + 1
+		begin = text.find('"', end + 1)
+	return "".join(parts) + text.substr(from)
+
+
+static func _put_strings(text: String, strings: PackedStringArray) -> String:
+	for i: int in strings.size():
+		text = text.replace(MARK % i, strings[i])
+	return text
+
+
+## True if an odd number of backslashes stands before a character.
+static func _is_escaped(text: String, at: int) -> bool:
+	var first: int = at
+	while first > 0 and text[first - 1] == "\\":
+		first -= 1
+	return (at - first) % 2 == 1
 
 
 ## A block is a line in brackets, without the first one, and its properties. used: for each class,

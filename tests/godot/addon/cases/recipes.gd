@@ -48,6 +48,11 @@ func play() -> void:
 	await end("hot_plug")
 
 	await show_recipe("calibrate")
+	var bench := Node3D.new()  # the device may stand in another node, turned about
+	bench.position = Vector3(0.3, 0, 0)
+	bench.rotation.y = PI
+	root.add_child(bench)
+	device.reparent(bench)
 	await says("button: [1-9][0-9] mm", "the reach is measured")
 	await create_timer(STROKE).timeout
 	checks.equal(device.force, Vector3.ZERO, "nothing is felt meanwhile")
@@ -62,6 +67,9 @@ func play() -> void:
 		left = minf(left, device.hip_position.x)
 		right = maxf(right, device.hip_position.x)
 	checks.close(right - left, 0.08, 0.01, "the hand reaches most of the plate, m")
+	checks.close(0.5 * (left + right), 0.0, 0.004, "about its middle, m")
+	device.reparent(stage)
+	bench.free()
 	await end("calibrate")
 
 	await show_recipe("ray")

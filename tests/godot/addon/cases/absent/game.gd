@@ -10,6 +10,14 @@ func _ready() -> void:
 	var has_library: bool = ClassDB.class_exists(&"KnurlDevice")
 	checks.equal(has_library, OS.get_cmdline_user_args().has("felt"), "a library")
 	checks.equal(surface.grating.spatial_frequency, Vector2(700, 0), "the scene's grating")
+	checks.equal(
+		surface.get_meta("note"),
+		(
+			'Text that looks like a scene:\nscript = "none"\n'
+			+ '[node name="N" type="KnurlSurface"]\n[resource]\n\\'
+		),
+		"a text"
+	)
 	checks.equal(surface.grating.method, KnurlGrating.METHOD_S2, "an enumeration")
 	surface.grating.amplitude = 0.001
 	checks.equal(surface.grating.amplitude, 0.001, "a changed grating")
