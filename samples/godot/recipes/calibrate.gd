@@ -7,6 +7,7 @@ const WIDTH := 0.08  # m of the scene that the hand is to reach: most of the pla
 const LEAST := 0.005  # m
 
 @onready var device: KnurlDevice = $KnurlDevice
+@onready var centre: Vector3 = device.global_position  # the middle of the reach is to be there
 @onready var text: Label = $Hud/Text
 
 var left := INF
@@ -36,6 +37,7 @@ func finish(pressed: bool) -> void:
 	if not pressed or not device.paused or right - left < LEAST:
 		return
 	device.workspace_scale = WIDTH / (right - left)
-	device.position.x = -0.5 * (left + right) * device.workspace_scale
+	var right_of_device: Vector3 = device.global_basis.x.normalized()
+	device.global_position = centre - 0.5 * (left + right) * device.workspace_scale * right_of_device
 	device.paused = false
 	text.text = "Reach %.0f mm, scale %.2f." % [1e3 * (right - left), device.workspace_scale]
