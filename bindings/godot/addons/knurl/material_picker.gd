@@ -5,6 +5,12 @@ extends EditorInspectorPlugin
 const Materials: GDScript = preload("materials.gd")
 const SWATCH := 16
 
+var _undo: EditorUndoRedoManager  # the plugin's: EditorInterface of 4.3 does not give it
+
+
+func _init(undo: EditorUndoRedoManager) -> void:
+	_undo = undo
+
 
 func _can_handle(object: Object) -> bool:
 	return object is KnurlGrating
@@ -16,7 +22,7 @@ func _parse_begin(object: Object) -> void:
 
 ## A button with a menu; the chosen material's sources are in the items' tooltips, and below it once
 ## it is chosen.
-static func make_button(grating: KnurlGrating) -> VBoxContainer:
+func make_button(grating: KnurlGrating) -> VBoxContainer:
 	var box := VBoxContainer.new()
 	var button := MenuButton.new()
 	var sources := Label.new()
@@ -54,14 +60,13 @@ static func values_of(material: Dictionary) -> Dictionary:
 
 
 ## One step for undo.
-static func _take(grating: KnurlGrating, material: Dictionary) -> void:
-	var undo: EditorUndoRedoManager = EditorInterface.get_editor_undo_redo()
+func _take(grating: KnurlGrating, material: Dictionary) -> void:
 	var values: Dictionary = values_of(material)
-	undo.create_action("Everyday Material")
+	_undo.create_action("Everyday Material")
 	for key: String in values:
-		undo.add_do_property(grating, key, values[key])
-		undo.add_undo_property(grating, key, grating.get(key))
-	undo.commit_action()
+		_undo.add_do_property(grating, key, values[key])
+		_undo.add_undo_property(grating, key, grating.get(key))
+	_undo.commit_action()
 
 
 static func _swatch(color: Color) -> ImageTexture:

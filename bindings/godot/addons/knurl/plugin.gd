@@ -46,7 +46,7 @@ func _enter_tree() -> void:
 	add_node_3d_gizmo_plugin(_gizmo)
 	_inspector = load(FOLDER + "inspector.gd").new()
 	add_inspector_plugin(_inspector)
-	_picker = load(FOLDER + "material_picker.gd").new()
+	_picker = load(FOLDER + "material_picker.gd").new(get_undo_redo())
 	add_inspector_plugin(_picker)
 	_button = Button.new()
 	_button.text = "Gratings"
