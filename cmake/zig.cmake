@@ -1,10 +1,12 @@
-# macOS (arm64, x86-64) and Linux (arm64) from Linux, with the compiler in build/zig, from cmake/zig.sh.
+# macOS (arm64, x86-64), Linux and Windows (arm64) from Linux, with the compiler in build/zig, from cmake/zig.sh.
 # KNURL_ZIG_TARGET: Zig's name of the target; presets set it.
 set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES KNURL_ZIG_TARGET)
 string(REGEX MATCH "^[^-]+" CMAKE_SYSTEM_PROCESSOR ${KNURL_ZIG_TARGET})
 if(KNURL_ZIG_TARGET MATCHES macos)
   set(CMAKE_SYSTEM_NAME Darwin)
   set(CMAKE_INSTALL_NAME_TOOL true) # not needed: binaries are not renamed at installation
+elseif(KNURL_ZIG_TARGET MATCHES windows)
+  set(CMAKE_SYSTEM_NAME Windows)
 else()
   set(CMAKE_SYSTEM_NAME Linux)
 endif()

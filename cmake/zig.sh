@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Puts the compiler for macOS and Linux on arm64 into DIR: Zig's, which includes the headers and C libraries of both,
-# and the headers of Knurl's other dependencies (cmake/zig.cmake uses them). Header-only libraries are the host's.
+# Puts the compiler for macOS, and for Linux and Windows on arm64, into DIR: Zig's, which includes their headers and C
+# libraries, and the headers of Knurl's other dependencies (cmake/zig.cmake uses them). Header-only libraries are the
+# host's.
 # usage: zig.sh DIR     Does nothing if that version is there already. Exit 3: it cannot be downloaded.
 set -euo pipefail
 [ $# -eq 1 ] || { echo "usage: zig.sh DIR" >&2; exit 2; }
@@ -16,7 +17,8 @@ mkdir -p "$dir/bin" "$dir/prefix/include" "$dir/prefix/share/cmake" "$dir/prefix
 for tool in ar ranlib; do
     printf '#!/bin/sh\nexec "%s" -m ziglang %s "$@"\n' "$dir/venv/bin/python" $tool >"$dir/bin/$tool"
 done
-for target in aarch64-macos.11.0 x86_64-macos.11.0 aarch64-linux-gnu.2.31 aarch64-linux-gnu.2.28 x86_64-linux-gnu.2.28; do
+for target in aarch64-macos.11.0 x86_64-macos.11.0 aarch64-linux-gnu.2.31 aarch64-linux-gnu.2.28 x86_64-linux-gnu.2.28 \
+    aarch64-windows-gnu; do
     for tool in cc c++; do
         printf '#!/bin/sh\nexec "%s" -m ziglang %s -target %s "$@"\n' "$dir/venv/bin/python" $tool $target \
             >"$dir/bin/$target-$tool"

@@ -20,7 +20,7 @@ godot_demo() {
     echo "run: what was felt is drawn in build/godot-demo/shot.png"
 }
 
-# Fetches the compiler for macOS and for Linux on arm64; prints the reason if it cannot be downloaded.
+# Fetches the compiler for macOS and for arm64; prints the reason if it cannot be downloaded.
 prepare_zig() {
     need_packages "${BUILD_PACKAGES[@]}" python3-venv
     mkdir -p build
@@ -59,7 +59,9 @@ package_godot() {
     fi
     if [ "${1:-}" != linux ] && prepare_zig; then
         build_elsewhere knurl_godot godot/libknurl_godot.macos.dylib
-        libraries+=(build/macos/godot/libknurl_godot.macos.dylib build/linux-arm64/godot/libknurl_godot.linux.arm64.so)
+        build windows-arm64 knurl_godot
+        libraries+=(build/macos/godot/libknurl_godot.macos.dylib build/linux-arm64/godot/libknurl_godot.linux.arm64.so
+            build/windows-arm64/godot/libknurl_godot.windows.arm64.dll)
     elif [ "${1:-}" != linux ]; then
         echo "run: SKIPPED: the libraries for macOS and arm64, see above: the package is without them" >&2
     fi

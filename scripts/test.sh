@@ -177,12 +177,13 @@ same_numbers() {
     /usr/bin/python3 -B tests/fidelity/same_numbers.py "$PWD" "$PWD/build/same_numbers" cc
 }
 
-# Checks the cross-built libraries for macOS and for Linux on arm64, with a run under qemu.
+# Checks the cross-built libraries for macOS and for arm64, with a run under qemu.
 test_elsewhere() {
     prepare_zig || return 1
     (need_packages llvm qemu-user libc6-arm64-cross) || echo 'run: qemu cannot be had, see above: nothing runs under it' >&2
     build_elsewhere knurl_godot godot/libknurl_godot.macos.dylib
     build_elsewhere knurl_unity unity/libknurl_unity.dylib
+    build windows-arm64 knurl_godot
     build macos-arm64 knurl_tool
     build linux-arm64 knurl_tool
     tests/package/elsewhere.py build build/release/knurl assets/plate_1d.glb

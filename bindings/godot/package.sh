@@ -30,7 +30,7 @@ for library in "$@"; do
     fi
     install -m 755 "$library" "$stage/addons/knurl/bin/"
     case $name in # debug information is not shipped
-    *.arm64.so | *.dylib) ;; # stripped when they were linked
+    *.arm64.* | *.dylib) ;; # stripped when they were linked
     *.so) strip --strip-unneeded "$stage/addons/knurl/bin/$name" ;;
     *.dll) ! command -v x86_64-w64-mingw32-strip >/dev/null ||
         x86_64-w64-mingw32-strip --strip-unneeded "$stage/addons/knurl/bin/$name" ;;

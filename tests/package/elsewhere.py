@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Checks the cross-built libraries and tools for macOS and for Linux on arm64: exports, dependencies and signatures. Compares
-a run of the arm64 tool under qemu with the same run of this machine's tool.
+"""Checks the cross-built libraries and tools for macOS, and for Linux and Windows on arm64: exports, dependencies and
+signatures. Compares a run of the arm64 tool under qemu with the same run of this machine's tool.
 
-usage: elsewhere.py BUILD KNURL PLATE     BUILD: with the folders macos-arm64, macos-x86_64 and linux-arm64
+usage: elsewhere.py BUILD KNURL PLATE     BUILD: with the folders macos-arm64, macos-x86_64, linux-arm64, windows-arm64
 SPDX-License-Identifier: MIT"""
 import json
 import os
@@ -81,6 +81,22 @@ class Arm64(unittest.TestCase):
         for key in TIMED:
             there.pop(key), here.pop(key)
         self.assertEqual(there, here)
+
+
+class WindowsArm64(unittest.TestCase):
+    library = below("windows-arm64", "godot", "libknurl_godot.windows.arm64.dll")
+
+    def test_it_exports_its_entry_alone(self):
+        said = say("llvm-readobj", "--file-headers", "--coff-exports", self.library)
+        self.assertIn("Machine: IMAGE_FILE_MACHINE_ARM64 ", said)
+        self.assertEqual([line.split()[1] for line in said.splitlines() if line.startswith("  Name: ")],
+                         [ENTRIES["knurl_godot"]])
+
+    def test_it_needs_the_systems_libraries_alone(self):
+        said = say("llvm-readobj", "--coff-imports", self.library)
+        names = {line.split()[1] for line in said.splitlines() if line.startswith("  Name: ")}
+        others = {name for name in names if not name.startswith("api-ms-win-crt-")} # Windows' own C library
+        self.assertEqual(others, {"KERNEL32.dll", "WINMM.dll"})
 
 
 if __name__ == "__main__":
