@@ -10,7 +10,7 @@ const CLASSES := "res://.godot/global_script_class_cache.cfg"
 const EXTENSIONS := "res://.godot/extension_list.cfg"
 
 var _lacks_library := false
-var _changed: Dictionary = {}  # paths of these: their text before the export, null if there was none
+var _changed: Dictionary = {}  # paths of these: their bytes before the export
 
 
 func _get_name() -> String:
@@ -34,15 +34,12 @@ func _export_begin(features: PackedStringArray, _debug: bool, _path: String, _fl
 
 func _export_end() -> void:
 	for path: String in _changed:
-		if _changed[path] == null:
-			DirAccess.remove_absolute(path)
-		else:
-			Standins.write(path, _changed[path])
+		Standins.write(path, _changed[path])
 	_changed.clear()
 
 
 func _change(path: String, text: String) -> void:
-	_changed[path] = FileAccess.get_file_as_string(path) if FileAccess.file_exists(path) else null
+	_changed[path] = FileAccess.get_file_as_string(path)
 	Standins.write(path, text)
 
 

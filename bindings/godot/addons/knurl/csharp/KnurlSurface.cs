@@ -65,8 +65,7 @@ namespace Knurl
         /// start, each one once; surfaces out of reach are reported only if all of them are.</summary>
         public string[] GetWarnings() { return Object.Call("get_warnings").AsStringArray(); }
 
-        /// <summary>Reads its parent's triangles again in the next frame. Not needed for a MeshInstance3D or
-        /// GridMap.</summary>
+        /// <summary>Reads its parent's triangles again in the next frame. Not needed for a MeshInstance3D.</summary>
         public void UpdateMesh() { Object.Call("update_mesh"); }
 
         /// <summary>true if a device touched it in the last frame. If several surfaces are in contact, only the one
