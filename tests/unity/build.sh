@@ -55,6 +55,18 @@ while read -r shown; do # the examples in its README; serialised fields are not 
 done < <(/usr/bin/python3 -B "$root/tests/docs/snippets.py" write csharp "$out" bindings/unity)
 compile Knurl.Haptics.Editor.dll "$out" -target:library "${editor[@]}" -r:UnityEngine.dll -r:UnityEditor.dll \
     -r:Knurl.Haptics.dll -- "$package"/Editor/**/*.cs
+# The optional assemblies for importers, with stand-ins for these.
+importers=()
+if [ -d "$package/Importers" ]; then
+    compile Importers.dll "$out" -target:library -r:UnityEngine.dll -- "$here"/stubs/importers/*.cs
+    for importer in UnityGLTF glTFast; do
+        compile "Knurl.Haptics.$importer.dll" "$out" -target:library "${editor[@]}" -define:KNURL_NEWTONSOFT -r:UnityEngine.dll \
+            -r:UnityEditor.dll -r:Knurl.Haptics.dll -r:Importers.dll -- "$package/Importers/$importer"/*.cs
+        compile "Knurl.Haptics.$importer.dll" "$out/player" -target:library "${unity[@]}" -lib:"$out" -r:UnityEngine.dll \
+            -r:Knurl.Haptics.dll -r:Importers.dll -- "$package/Importers/$importer"/*.cs
+        importers+=(-r:"Knurl.Haptics.$importer.dll" -r:Importers.dll)
+    done
+fi
 for sample in "$package"/Samples~/*/; do
     name=Sample.$(basename "$sample")
     compile "$name.dll" "$out" -target:library "${editor[@]}" -r:UnityEngine.dll -r:Knurl.Haptics.dll -- "$sample"**/*.cs
@@ -72,7 +84,7 @@ compile Knurl.Haptics.Tests.dll "$out" -target:library "${tests[@]}" -r:UnityEdi
 editor_tests=("$package"/Tests/Editor/**/*.cs)
 if [ -e "$out/Knurl.Haptics.Editor.dll" ]; then
     compile Knurl.Haptics.Editor.Tests.dll "$out" -target:library "${tests[@]}" -r:UnityEditor.dll \
-        -r:Knurl.Haptics.Editor.dll -r:Knurl.Haptics.Tests.dll -r:Sample.ThreePlates.dll -- \
+        -r:Knurl.Haptics.Editor.dll -r:Knurl.Haptics.Tests.dll -r:Sample.ThreePlates.dll "${importers[@]}" -- \
         "${editor_tests[@]}" "$here"/editor_cases/*.cs
 fi
 compile Probe.exe "$out" -target:exe "${editor[@]}" -r:UnityEngine.dll -r:Knurl.Haptics.dll -- "$here"/probe/*.cs

@@ -97,10 +97,22 @@ namespace Knurl.Tests
             Assert.That(owner.GetComponent<KnurlSurface>() == null);
         }
 
+        /// <summary>Not an error of JSON in a file that nobody has written.</summary>
+        [TestCase("[1000.0, ]")]
+        [TestCase("[1000.0, 0.0")]
+        [TestCase("[1e999, 0]")]
+        [TestCase("[--1, 0]")]
+        [TestCase("[]")]
+        public void A_malformed_list_is_a_warning_that_names_the_object_and_the_key(string list)
+        {
+            LogAssert.Expect(LogType.Warning, new Regex("Assets/grip.fbx: node 'Grip.*spatial_frequency"));
+            Send(Grip(true), Names.Take(3).ToArray(), list, 0.0002, 400);
+        }
+
         [Test]
         public void An_object_without_a_mesh_is_a_warning()
         {
-            LogAssert.Expect(LogType.Warning, new Regex("has a tag but no mesh"));
+            LogAssert.Expect(LogType.Warning, new Regex("has a tag but no MeshFilter"));
             Send(Grip(false), Names.Take(3).ToArray(), 1000, 0.0002, 400);
         }
 

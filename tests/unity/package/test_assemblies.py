@@ -10,6 +10,8 @@ import package
 ASSEMBLIES = {  # folder: the assembly, and allowed references
     "Runtime": ("Knurl.Haptics", ["Unity.InputSystem"]),  # if the project has it
     "Editor": ("Knurl.Haptics.Editor", ["Knurl.Haptics"]),
+    "Importers/UnityGLTF": ("Knurl.Haptics.UnityGLTF", ["Knurl.Haptics", "UnityGLTFScripts", "GLTFSerialization"]),
+    "Importers/glTFast": ("Knurl.Haptics.glTFast", ["Knurl.Haptics", "glTFast", "glTFast.Newtonsoft"]),
     "Tests/Runtime": ("Knurl.Haptics.Tests", ["Knurl.Haptics"]),
     "Tests/Editor": ("Knurl.Haptics.Editor.Tests", ["Knurl.Haptics", "Knurl.Haptics.Editor"]),
 }
@@ -111,6 +113,12 @@ class Assemblies(unittest.TestCase):
             self.assertTrue(definition["overrideReferences"])
             self.assertFalse(definition["autoReferenced"])
             self.assertLessEqual(RUNNERS, set(definition["references"]))
+
+    def test_for_importers_are_compiled_only_if_the_project_has_them(self):
+        for folder, package_name in (("UnityGLTF", "org.khronos.unitygltf"), ("glTFast", "com.unity.cloud.gltfast")):
+            definition = self.definitions["Importers/" + folder]
+            defines = {define["name"]: define["define"] for define in definition["versionDefines"]}
+            self.assertEqual(definition["defineConstraints"], [defines[package_name]])
 
     def test_of_the_package_are_seen_by_games_and_samples(self):
         for folder in ("Runtime", "Editor"):

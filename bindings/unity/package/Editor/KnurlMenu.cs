@@ -100,7 +100,7 @@ namespace Knurl.Editing
                 .Select(AssetDatabase.LoadAssetAtPath<KnurlGrating>).ToArray();
             Undo.IncrementCurrentGroup();
             Undo.SetCurrentGroupName("Add Knurl Surfaces");
-            List<string> missed = TagSurfaces.Apply(root, tags, gratings, new GltfNames(path));
+            List<string> missed = TagSurfaces.Apply(root, tags, gratings);
             Undo.CollapseUndoOperations(Undo.GetCurrentGroup());
             foreach (string sentence in missed)
             {

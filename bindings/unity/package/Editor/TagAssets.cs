@@ -141,6 +141,22 @@ namespace Knurl.Editing
             }
         }
 
+        /// <summary>Deletes the gratings of a deleted file, and their folder unless it holds something else.</summary>
+        internal static void Delete(string gltf)
+        {
+            string folder = FolderOf(gltf);
+            if (AssetDatabase.IsValidFolder(folder))
+            {
+                string[] all = AssetDatabase.FindAssets("", new[] { folder }).Select(AssetDatabase.GUIDToAssetPath).ToArray();
+                string[] own = all.Where(path => AssetDatabase.GetLabels(AssetDatabase.LoadMainAssetAtPath(path)).Contains(Label))
+                    .ToArray();
+                foreach (string path in own.Length == all.Length ? new[] { folder } : own)
+                {
+                    AssetDatabase.MoveAssetToTrash(path);
+                }
+            }
+        }
+
         /// <summary>Moves the gratings along with a moved or renamed file; references to them stay valid.</summary>
         internal static void Move(string from, string to)
         {

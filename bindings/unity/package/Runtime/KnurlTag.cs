@@ -4,7 +4,7 @@ using UnityEngine;
 namespace Knurl
 {
     /// <summary>A surface of a glTF file that is tagged as a grating: its name and its values. See <see
-    /// cref="KnurlTags.Read"/>.</summary>
+    /// cref="KnurlTags.Read(string)"/>.</summary>
     public sealed class KnurlTag
     {
         internal unsafe KnurlTag(knurl_surface_info* info, knurl_material_desc* material)
@@ -61,6 +61,38 @@ namespace Knurl
 
         /// <summary>See <see cref="KnurlSurface.Smooth"/>.</summary>
         public SurfaceSmoothness Smooth { get; }
+
+        /// <summary>The names in its file; null if it was not read from a whole one.</summary>
+        internal GltfNames Names { get; set; }
+
+        /// <summary>A new grating with its values.</summary>
+        internal KnurlGrating MakeGrating(string name)
+        {
+            var grating = ScriptableObject.CreateInstance<KnurlGrating>();
+            grating.name = name;
+            CopyTo(grating);
+            return grating;
+        }
+
+        /// <summary>Its axis in the axes of the mesh; zero if it has none. place: the object's matrix in the file.</summary>
+        internal Vector3 AxisIn(Matrix4x4 place)
+        {
+            return Axis == Vector3.zero ? Axis : Axes.ToMesh(Axis, place);
+        }
+
+        /// <summary>Makes a surface feel as the tag says. axis: the tag's, in the mesh's axes; zero: the surface keeps
+        /// its own.</summary>
+        internal void CopyTo(KnurlSurface surface, KnurlGrating grating, Vector3 axis)
+        {
+            surface.Grating = grating;
+            surface.DoubleSided = DoubleSided;
+            surface.Smooth = Smooth;
+            if (axis != Vector3.zero)
+            {
+                surface.Axis = axis;
+            }
+            surface.BoxCoordinates = BoxCoordinates && surface.Axis == Vector3.zero;
+        }
 
         /// <summary>Copies all values to a grating.</summary>
         public void CopyTo(KnurlGrating grating)

@@ -40,14 +40,14 @@ namespace UnityEditor
 
         public static void SetLabels(UnityEngine.Object asset, string[] given) { labels[asset] = given; }
 
-        /// Only "t:Class", by the class alone.
+        /// Only "t:Class", by the class alone, and "" for all.
         public static string[] FindAssets(string filter, string[] within)
         {
             List<string> found = new List<string>();
             foreach (KeyValuePair<string, UnityEngine.Object> pair in Assets)
             {
                 bool inside = Array.Exists(within, folder => pair.Key.StartsWith(folder + "/", StringComparison.Ordinal));
-                if (inside && filter == "t:" + pair.Value.GetType().Name)
+                if (inside && (filter == "" || filter == "t:" + pair.Value.GetType().Name))
                 {
                     found.Add(pair.Key);
                 }
@@ -105,6 +105,8 @@ namespace UnityEditor
 
         public static bool Contains(UnityEngine.Object asset) { return GetAssetPath(asset).Length > 0; }
         /// Including its content. Objects of deleted assets are destroyed.
+        public static bool MoveAssetToTrash(string path) { return DeleteAsset(path); }
+
         public static bool DeleteAsset(string path)
         {
             bool found = folders.Remove(path);
@@ -348,6 +350,16 @@ namespace UnityEditor
     /// There are no prefabs.
     public static class PrefabUtility
     {
+        /// A test fills it in: instance, imported object.
+        public static readonly Dictionary<UnityEngine.Object, UnityEngine.Object> Sources
+            = new Dictionary<UnityEngine.Object, UnityEngine.Object>();
+
+        public static T GetCorrespondingObjectFromOriginalSource<T>(T o) where T : UnityEngine.Object
+        {
+            UnityEngine.Object found;
+            return Sources.TryGetValue(o, out found) ? (T)found : null;
+        }
+
         public static bool IsPartOfPrefabInstance(UnityEngine.Object o) { return false; }
         public static void RecordPrefabInstancePropertyModifications(UnityEngine.Object o) { }
         public static string GetPrefabAssetPathOfNearestInstanceRoot(UnityEngine.Object o) { return ""; }

@@ -303,9 +303,11 @@ namespace UnityEngine
             return found.ToArray();
         }
 
-        public T GetComponentInChildren<T>()
+        public T GetComponentInChildren<T>() { return GetComponentInChildren<T>(false); }
+
+        public T GetComponentInChildren<T>(bool includeInactive)
         {
-            T[] found = GetComponentsInChildren<T>();
+            T[] found = GetComponentsInChildren<T>(includeInactive);
             return found.Length > 0 ? found[0] : default(T);
         }
     }

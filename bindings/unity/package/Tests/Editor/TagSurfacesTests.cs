@@ -41,7 +41,7 @@ namespace Knurl.Tests
             IReadOnlyList<KnurlTag> tags = KnurlTags.Read(path);
             KnurlGrating[] gratings = TagAssets.PathsOf(path, tags.Select(tag => tag.Name)).Select(GltfFiles.Grating)
                 .ToArray();
-            return TagSurfaces.Apply(root, tags, gratings, new GltfNames(path));
+            return TagSurfaces.Apply(root, tags, gratings);
         }
 
         static float FrequencyOf(GameObject owner)
@@ -135,7 +135,7 @@ namespace Knurl.Tests
         [TestCase("(2)", "(2)")]
         public void What_a_tag_may_be_called(string name, string expected)
         {
-            Assert.AreEqual(expected, string.Join("|", TagSurfaces.Candidates(name).ToArray()));
+            Assert.AreEqual(expected, string.Join("|", TagPlacer.Candidates(name).ToArray()));
         }
     }
 }

@@ -132,5 +132,46 @@ namespace Knurl.Tests
             Assert.Throws<KnurlException>(() => KnurlTags.Read(null));
             Assert.Throws<KnurlException>(() => KnurlTags.Read(""));
         }
+
+        /// <summary>A game that loads a file by itself: the axis is in the mesh's axes, whatever the scale of the loaded
+        /// objects and of what they are below.</summary>
+        [Test]
+        public void LoadedObjectsGetTheirSurfaces()
+        {
+            byte[] content = File.ReadAllBytes(Write("a.gltf", Plain.Replace("}", ", 'axis': [1, 0, 1]}")));
+            IReadOnlyList<KnurlTag> tags = KnurlTags.Read(content, "a.gltf");
+            Transform above = MakeObject("Above").transform;
+            above.localScale = new Vector3(1f, 1f, 5f);
+            GameObject root = MakeObject("Root"), loaded = MakeObject("Fläche"), other = MakeObject("Other");
+            foreach (GameObject shown in new[] { loaded, other })
+            {
+                shown.transform.SetParent(root.transform, false);
+                shown.AddComponent<MeshFilter>();
+            }
+            root.transform.SetParent(above, false);
+            CollectionAssert.IsEmpty(KnurlTags.Apply(root, tags));
+            var surface = loaded.GetComponent<KnurlSurface>();
+            Assert.AreEqual(800f, surface.Grating.SpatialFrequency.x);
+            Assert.AreEqual(1f, Vector3.Dot(new Vector3(-1f, 0f, 1f).normalized, surface.Axis), 1e-6f);
+            Assert.That(other.GetComponent<KnurlSurface>() == null);
+            KnurlTags.Apply(root, tags);
+            Assert.AreEqual(1, loaded.GetComponents<KnurlSurface>().Length, "an object that has one is updated");
+        }
+
+        [Test]
+        public void ATagWithoutAnObjectIsTold()
+        {
+            IReadOnlyList<string> missed = KnurlTags.Apply(MakeObject("Root"), KnurlTags.Read(Write("a.gltf", Plain)));
+            Assert.AreEqual(1, missed.Count);
+            StringAssert.Contains("'Fläche' has no object with a mesh of that name", missed[0]);
+        }
+
+        [Test]
+        public void ANullIsNamed()
+        {
+            Assert.Throws<ArgumentNullException>(() => KnurlTags.Apply(null, KnurlTags.Read(Write("a.gltf", Plain))));
+            Assert.Throws<ArgumentNullException>(() => KnurlTags.Apply(MakeObject("Root"), null));
+            Assert.Throws<ArgumentNullException>(() => KnurlTags.Read(null, "a.gltf"));
+        }
     }
 }

@@ -5,7 +5,7 @@ using System.IO;
 using System.Linq;
 using UnityEngine;
 
-namespace Knurl.Editing
+namespace Knurl
 {
     /// <summary>The names that a glTF file gives to its nodes and their meshes.</summary>
     internal sealed class GltfNames
@@ -35,10 +35,10 @@ namespace Knurl.Editing
         readonly HashSet<string> nodes = new HashSet<string>();
         readonly Dictionary<string, HashSet<string>> meshes = new Dictionary<string, HashSet<string>>();
 
-        /// <summary>Reads the names of a file that KnurlTags.Read has accepted.</summary>
-        internal GltfNames(string path)
+        /// <summary>json: of a file that KnurlTags.Read has accepted. path: the file's.</summary>
+        internal GltfNames(string json, string path)
         {
-            var gltf = JsonUtility.FromJson<Gltf>(GltfText.ReadJson(path));
+            var gltf = JsonUtility.FromJson<Gltf>(json);
             file = Path.GetFileNameWithoutExtension(path);
             for (int i = 0; i < gltf.nodes.Length; i++)
             {

@@ -3,10 +3,10 @@ using System;
 using System.IO;
 using System.Text;
 
-namespace Knurl.Editing
+namespace Knurl
 {
-    /// <summary>A quick search in glTF files, so that those without tags are not loaded and cause no warnings about
-    /// features that Knurl does not support, such as compressed meshes.</summary>
+    /// <summary>The JSON of glTF files, and a quick search in it, so that those without tags are not loaded and cause no
+    /// warnings about features that Knurl does not support, such as compressed meshes.</summary>
     internal static class GltfText
     {
         const uint Magic = 0x46546C67; // "glTF"
@@ -27,20 +27,25 @@ namespace Knurl.Editing
         {
             using (FileStream file = File.OpenRead(path))
             {
-                long length = JsonLength(file); // before the JSON is read
-                var bytes = new byte[Math.Min(length, file.Length - file.Position)];
-                int count = 0, read = -1;
-                while (count < bytes.Length && read != 0)
-                {
-                    read = file.Read(bytes, count, bytes.Length - count);
-                    count += read;
-                }
-                return Encoding.UTF8.GetString(bytes, 0, count).TrimStart('\uFEFF');
+                return ReadJson(file);
             }
         }
 
+        internal static string ReadJson(Stream file)
+        {
+            long length = JsonLength(file); // before the JSON is read
+            var bytes = new byte[Math.Min(length, file.Length - file.Position)];
+            int count = 0, read = -1;
+            while (count < bytes.Length && read != 0)
+            {
+                read = file.Read(bytes, count, bytes.Length - count);
+                count += read;
+            }
+            return Encoding.UTF8.GetString(bytes, 0, count).TrimStart('\uFEFF');
+        }
+
         /// <summary>Positions the file at the start of its JSON and returns the number of bytes to search.</summary>
-        static long JsonLength(FileStream file)
+        static long JsonLength(Stream file)
         {
             var header = new byte[HeaderBytes];
             int count = file.Read(header, 0, HeaderBytes);
