@@ -14,7 +14,7 @@ namespace Knurl.Tests
 
         /// <summary>A square of 0.1 m, 2 n n triangles, with waves of a height; level ones would be felt as a
         /// plane.</summary>
-        static Mesh Sheet(int n, float height)
+        internal static Mesh Sheet(int n, float height)
         {
             var mesh = new Mesh();
             var vertices = new Vector3[(n + 1) * (n + 1)];

@@ -1,5 +1,7 @@
 // Changes of the scene by a follower. SPDX-License-Identifier: MIT
+using System.Diagnostics;
 using UnityEngine;
+using Debug = UnityEngine.Debug;
 
 namespace Knurl
 {
@@ -142,16 +144,29 @@ namespace Knurl
             {
                 Remove(f);
                 f->isFlat = 1;
+                return;
             }
-            else if (NativeMethods.knurl_session_same_rest(pose.rest, f->rest) == 0)
+            f->isStale = NativeMethods.knurl_session_same_rest(pose.rest, f->rest) != 0 ? 0 : 1;
+            if (f->isStale != 0 && Time.unscaledTime >= f->rereadAt)
             {
-                Put(surface, f);
+                Reread(surface, f);
             }
             else
             {
                 Tell(surface, NativeMethods.knurl_session_move_surface(session, f->id, &f->way, pose.position,
                     pose.quaternion));
             }
+        }
+
+        /// <summary>After a change of scale or shear. An object that turns below an unevenly scaled one changes its shape in
+        /// each frame: reading that takes at most a fiftieth of the time, and between two readings it only moves.</summary>
+        void Reread(KnurlSurface surface, Follower* f)
+        {
+            const float share = 1f / 50f;
+            Stopwatch watch = Stopwatch.StartNew();
+            Put(surface, f);
+            f->isStale = 0;
+            f->rereadAt = Time.unscaledTime + (float)watch.Elapsed.TotalSeconds / share;
         }
 
         /// <summary>Finds the tangent plane, at its anchor, of the nearest surface that a ray hits. If it hits no

@@ -15,6 +15,8 @@ namespace Knurl
             internal int made, felt; // of its surface, at the last change of its mesh or material
             internal int isFlat;     // 1: its scale is zero, so it is not in the scene
             internal int isOnLayer;  // 1: it has a layer in common with the device
+            internal int isStale;    // 1: its shape has changed since its mesh was read
+            internal float rereadAt; // s, unscaled: not before
             internal Matrix4x4 seen; // of its transform
             internal knurl_session_way way;
             internal fixed double rest[9]; // scale, shear and mirror baked into its mesh
@@ -189,7 +191,7 @@ namespace Knurl
                 {
                     Feel(surface, f);
                 }
-                if (hasMoved)
+                if (hasMoved || f->isStale != 0)
                 {
                     Move(surface, f);
                 }

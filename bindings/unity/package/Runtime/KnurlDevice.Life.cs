@@ -33,6 +33,7 @@ namespace Knurl
         /// <returns>True if it runs; otherwise the error is logged to the console.</returns>
         public bool StartDevice()
         {
+            FinishOpening();
             hasFailed = false;
             KnurlException failure = TryStart();
             if (failure != null)
@@ -53,7 +54,6 @@ namespace Knurl
                     Demand();
                     Open();
                     Begin();
-                    impulse = Vector3.zero;
                 }
                 return null;
             }
@@ -81,6 +81,7 @@ namespace Knurl
         /// <summary>Ramps the force down and closes the device. Does nothing if it does not run.</summary>
         public void StopDevice()
         {
+            FinishOpening(false);
             isNew = hasFailed = false;
             if (isRunning)
             {
@@ -137,37 +138,6 @@ namespace Knurl
                 session = SessionHandle.Create();
                 Registry.Devices.Add(this);
             }
-        }
-
-        /// <summary>Opens the device first: if that fails, no mesh needs to be read.</summary>
-        unsafe void Open()
-        {
-            knurl_session_desc desc;
-            NeedSession();
-            NativeMethods.knurl_session_desc_init(&desc, (uint)sizeof(knurl_session_desc));
-            desc.reconnect = reconnect ? 1u : 0u;
-            desc.clamp = clamp ? 1u : 0u;
-            desc.update_rate_hz = rate;
-            latestScale = workspaceScale;
-            latestPosition = transform.position;
-            latestRotation = transform.rotation;
-            Axes.ToWorkspace(transform.position, transform.rotation, workspaceScale, &desc.workspace);
-            desc.even = evenSensation ? 1u : 0u;
-            byte[] measured = evenSensation && responseFile != null ? responseFile.bytes : null;
-            if (measured != null && measured.Length == 0)
-            {
-                throw new KnurlException(NativeMethods.KNURL_ERROR_FORMAT, "response: expected text, found an empty file");
-            }
-            fixed (byte* uri = Utf8.Bytes(device, "device"), hand = Utf8.Bytes(stroke, "stroke"), file = measured)
-            {
-                desc.response = file;
-                desc.response_size = measured != null ? (ulong)measured.Length : 0ul;
-                desc.device = uri;
-                desc.stroke = hand;
-                KnurlException.Check(NativeMethods.knurl_session_open(session, &desc));
-            }
-            following = new Following(session, layers);
-            following.Fill();
         }
 
         /// <summary>Passes settings to the run that changed since the last frame; all of them at the start.</summary>
@@ -257,6 +227,7 @@ namespace Knurl
             isRunning = true;
             runs++;
             ridges = 0.0;
+            impulse = Vector3.zero;
             TellSettings(true);
             NativeMethods.knurl_device_info_init(&info, (uint)sizeof(knurl_device_info));
             NativeMethods.knurl_device_get_info(NativeMethods.knurl_session_get_device(session), &info);
@@ -308,18 +279,26 @@ namespace Knurl
         /// set its properties.</summary>
         void Update()
         {
-            bool isDue = isNew || (hasFailed && retry > 0f && Time.unscaledTime >= retryAt);
+            if (opening != null && opening.Work.IsCompleted)
+            {
+                FinishOpening();
+            }
+            bool isFirst = isNew, isRetry = hasFailed && retry > 0f && Time.unscaledTime >= retryAt;
             isNew = false;
-            if (isDue && autostart && !isRunning)
+            if (isFirst && autostart && !isRunning && opening == null)
             {
                 StartByItself();
+            }
+            else if (isRetry && autostart && !isRunning)
+            {
+                TryOpen(true); // a driver that searches may take longer than a frame
             }
         }
 
         /// <summary>Pauses for the property, for the application, or for a time scale of 0.</summary>
         void Pause()
         {
-            if (session != null)
+            if (session != null && opening == null)
             {
                 bool all = paused || isPaused || Time.timeScale == 0f;
                 NativeMethods.knurl_session_set_paused(session, all ? 1u : 0u);

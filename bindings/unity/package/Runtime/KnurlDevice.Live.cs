@@ -184,6 +184,7 @@ namespace Knurl
             try
             {
                 knurl_gltf_report report;
+                FinishOpening();
                 Demand();
                 NeedSession();
                 NativeMethods.knurl_gltf_report_init(&report, (uint)sizeof(knurl_gltf_report));

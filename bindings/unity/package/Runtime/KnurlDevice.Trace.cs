@@ -17,6 +17,7 @@ namespace Knurl
         public double[] PlayTrace(double[] rows, int ticks)
         {
             double[] forces = null;
+            FinishOpening();
             if (isRunning)
             {
                 Complain("PlayTrace", "expected a device that is stopped, found one that runs");

@@ -9,8 +9,8 @@ namespace Knurl
     /// read in its rest pose, without skins and blend shapes, when a device starts or the surface is enabled; call <see
     /// cref="UpdateMesh"/> after a change. The surface follows its transform, so an object that slides under a finger
     /// is felt to slide. Its motion is interpolated between the frames, or between physics steps if it belongs to a
-    /// Rigidbody without interpolation. Scale is baked into the mesh, which is read again when the scale changes: cheap
-    /// enough for occasional changes, not for every frame. Main thread.</summary>
+    /// Rigidbody without interpolation. Scale is baked into the mesh, which is read again when the scale changes, in
+    /// at most a fiftieth of the game's time; in between it only moves. Main thread.</summary>
     [AddComponentMenu("Knurl/Knurl Surface")]
     [DisallowMultipleComponent]
     [RequireComponent(typeof(MeshFilter))]

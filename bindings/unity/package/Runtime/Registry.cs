@@ -57,6 +57,7 @@ namespace Knurl
                     Devices[i].StopAndFree();
                 }
             }
+            Background.Wait();
         }
 
         [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]

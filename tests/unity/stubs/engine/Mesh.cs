@@ -230,7 +230,15 @@ namespace UnityEngine
             }
         }
 
-        public void GetVertices(List<Vector3> to) { Fill(to, Allowed("vertices") ? positions : new Vector3[0]); }
+        /// For tests: how often the vertices were read.
+        public int Reads { get; private set; }
+
+        public void GetVertices(List<Vector3> to)
+        {
+            Reads++;
+            Fill(to, Allowed("vertices") ? positions : new Vector3[0]);
+        }
+
         public void GetNormals(List<Vector3> to) { Fill(to, Allowed("normals") ? normalArray : new Vector3[0]); }
         public void GetTangents(List<Vector4> to) { Fill(to, Allowed("tangents") ? tangentArray : new Vector4[0]); }
         public void GetUVs(int i, List<Vector2> to) { Fill(to, Allowed("uv") ? uvArrays[i] : new Vector2[0]); }
