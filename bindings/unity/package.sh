@@ -85,6 +85,9 @@ manifest.update(documentationUrl=below + "Documentation~/com.knurl.haptics.md", 
 with open(path, "w", encoding="utf-8", newline="\n") as file:
     file.write(json.dumps(manifest, indent=2, ensure_ascii=False) + "\n")
 PY
+    page=${KNURL_URL%/}
+    sed -i "s|Page = \"\"|Page = \"${page%.git}/blob/main/bindings/unity/package/Documentation~/com.knurl.haptics.md\"|" \
+        "$stage/$name/Runtime/Manual.cs"
 fi
 "$here/metas.py" --check --packed "$stage/$name" >/dev/null
 "$here/validate.py" ${KNURL_URL:+--published} "$stage/$name"

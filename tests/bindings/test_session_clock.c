@@ -249,6 +249,80 @@ TEST(a_right_guess_survives_a_clock_that_is_set_back) {
     knurl_session_destroy(r.s);
 }
 
+/* The five ways in which a Unity game moves things, with the clock that the package guesses for each. Physics runs 50 times
+ * a second. A body with interpolation is shown a step late, in each frame. */
+static const struct way {
+    const char *name;
+    uint32_t guess;
+    int is_in_steps;
+    double late; /* s */
+} ways[] = {
+    {"object, moved in Update (tween, Animator, Timeline)", KNURL_SESSION_FRAMES, 0, 0.0},
+    {"object, moved in FixedUpdate; ArticulationBody", KNURL_SESSION_FRAMES, 1, 0.0},
+    {"body, moved in FixedUpdate", KNURL_SESSION_STEPS, 1, 0.0},
+    {"body, moved in Update (grabbed in VR)", KNURL_SESSION_STEPS, 0, 0.0},
+    {"body with interpolation", KNURL_SESSION_FRAMES, 0, 0.02},
+};
+
+/* Hz: 10 ridges at a time, so that whole ticks are within a hundredth. */
+static void measure_frequencies(const rig *r, double *lowest, double *highest) {
+    enum { RIDGES_AT_A_TIME = 10 };
+    uint64_t rises[RIDGES_AT_A_TIME];
+    uint64_t count = 0;
+    *lowest = HUGE_VAL;
+    *highest = 0.0;
+    for (uint64_t i = (uint64_t)(1000.0 * WARM_UP_S); i < r->ticks; i++) {
+        if (r->heights[i - 1] < 0.0F && r->heights[i] > 0.0F) {
+            uint64_t *before = &rises[count % RIDGES_AT_A_TIME];
+            if (count >= RIDGES_AT_A_TIME) {
+                const double frequency = 1000.0 * RIDGES_AT_A_TIME / (double)(i - *before);
+                *lowest = fmin(*lowest, frequency);
+                *highest = fmax(*highest, frequency);
+            }
+            *before = i;
+            count++;
+        }
+    }
+}
+
+static void play_way(const struct way *way, double fps, double *lowest, double *highest) {
+    const double rate = 50.0;
+    rig r;
+    double steps = 0.0;
+    set_up(&r, KNURL_METHOD_S1, way->guess);
+    r.way.is_guess = 1;
+    for (double frame = 1.0; frame < fps * (WARM_UP_S + MEASURED_S); frame += 1.0) {
+        const double now = frame / fps;
+        const double done = floor(now * rate + 1e-9);
+        go_to(&r, now);
+        assert_int_equal(knurl_session_tell_time(r.s, KNURL_SESSION_FRAMES, now), KNURL_OK);
+        assert_int_equal(knurl_session_tell_time(r.s, KNURL_SESSION_STEPS, done / rate), KNURL_OK);
+        if (!way->is_in_steps || done > steps) {
+            move_to(&r, (way->is_in_steps ? done / rate : now) - way->late);
+        }
+        steps = done;
+    }
+    measure_frequencies(&r, lowest, highest);
+    knurl_session_destroy(r.s);
+}
+
+TEST(each_way_of_moving_in_unity_is_felt_at_its_frequency) {
+    static const double rates[] = {30, 45, 60, 72, 90, 120, 144};
+    int failed = 0;
+    for (size_t w = 0; w < COUNT(ways); w++) {
+        print_message("%-52s", ways[w].name);
+        for (size_t i = 0; i < COUNT(rates); i++) {
+            double lowest;
+            double highest;
+            play_way(&ways[w], rates[i], &lowest, &highest);
+            print_message(" %g fps %.1f-%.1f", rates[i], lowest, highest);
+            failed += lowest < 98.9 || highest > 101.1; /* 100 Hz */
+        }
+        print_message("\n");
+    }
+    assert_int_equal(failed, 0);
+}
+
 TEST(bad_clocks_are_refused) {
     rig r;
     const double position[3] = {0.0, 0.0, 0.0};

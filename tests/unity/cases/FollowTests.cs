@@ -363,9 +363,11 @@ namespace Knurl.Tests
         {
             KnurlDevice d = MakeDevice("fake", "sweep");
             Assert.AreEqual(new string[0], d.GetWarnings());
+            d.Stroke = "";
+            Contains(d.GetWarnings()[0], "stands still", "Stroke");
             d.Device = "touch";
             d.WorkspaceScale = 0f;
-            Assert.AreEqual(2, d.GetWarnings().Length);
+            Contains(d.GetWarnings()[0], "workspace scale");
         }
 
         [Test]

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 using System.Linq;
 using Knurl.Tests;
+using Knurl.Editing;
 using NUnit.Framework;
 using UnityEditor;
 using UnityEngine;
@@ -43,12 +44,36 @@ namespace Knurl.Cases
             Draw(MakeGrating(1000f));
             foreach (string label in new[] { "spatialFrequency as Spatial Frequency (1/m)",
                 "amplitude as Amplitude (m)", "stiffness as Stiffness (N/m)", "damping as Damping (N s/m)",
-                "orientation as Orientation (rad)" })
+                "orientation as Orientation (degrees)" })
             {
                 CollectionAssert.Contains(EditorGUILayout.Drawn, "property " + label);
             }
             CollectionAssert.Contains(EditorGUILayout.Drawn,
                 "Info: A ridge every 1 mm along x, 0.4 mm from bottom to top.");
+        }
+
+        [Test]
+        public void Layers_are_ticked_by_name_and_angles_edited_in_degrees()
+        {
+            KnurlSurface surface = MakeSurface(Plate());
+            var layers = new SerializedObject(surface);
+            EditorGUILayout.Answers["Layers"] = 5;
+            new LayersDrawer().OnGUI(new Rect(), layers.FindProperty("layers"), new GUIContent("Layers"));
+            layers.ApplyModifiedProperties();
+            Assert.AreEqual(5, surface.Layers);
+            CollectionAssert.Contains(EditorGUILayout.Drawn, "field Layers = 1");
+            Assert.AreEqual(32, LayersDrawer.Names.Length);
+            surface.Grating.Orientation = 0.25f * Mathf.PI;
+            var grating = new SerializedObject(surface.Grating);
+            EditorGUILayout.Answers.Clear();
+            new DegreesDrawer().OnGUI(new Rect(), grating.FindProperty("orientation"), new GUIContent("Orientation"));
+            CollectionAssert.Contains(EditorGUILayout.Drawn, "field Orientation = 45");
+            Assert.AreEqual(0.25f * Mathf.PI, grating.FindProperty("orientation").floatValue, "only an edit changes it");
+            EditorGUILayout.Answers["Orientation"] = 90f;
+            new DegreesDrawer().OnGUI(new Rect(), grating.FindProperty("orientation"), new GUIContent("Orientation"));
+            grating.ApplyModifiedProperties();
+            Assert.AreEqual(0.5f * Mathf.PI, surface.Grating.Orientation, 1e-6f);
+            EditorGUILayout.Answers.Clear();
         }
 
         [Test]

@@ -149,45 +149,5 @@ namespace Knurl.Cases
             Texture2D picture = Hooks.EditorOf(grating).RenderStaticPreview("", null, 64, 32);
             Assert.AreEqual(64 * 32, picture.Pixels.Length);
         }
-
-        KnurlSurface MakeShown(params ShaderPropertyType[] properties)
-        {
-            KnurlSurface surface = MakeSurface(Plate());
-            surface.gameObject.AddComponent<MeshRenderer>().sharedMaterial =
-                new Material(new Shader { Properties = properties });
-            return surface;
-        }
-
-        static void Process(BuildReport report, params KnurlSurface[] surfaces)
-        {
-            GameObject[] roots = surfaces.Select(surface => surface.gameObject).ToArray();
-            new BuildCheck().OnProcessScene(new Scene { Path = "Assets/a.unity", Roots = roots }, report);
-        }
-
-        [Test]
-        public void A_build_that_strips_the_uvs_of_a_surface_is_warned_of()
-        {
-            PlayerSettings.stripUnusedMeshComponents = true;
-            KnurlSurface plain = MakeShown(ShaderPropertyType.Color);
-            LogAssert.Expect(LogType.Warning, new Regex("Assets/a.unity: the surface 'Plate'.*Optimize Mesh Data"));
-            Process(new BuildReport(), plain);
-            AssetDatabase.CreateAsset(plain.gameObject, "Assets/a.prefab");
-            LogAssert.Expect(LogType.Warning, new Regex("Assets/a.prefab: the surface 'a'"));
-            new BuildCheck().OnPreprocessBuild(new BuildReport());
-            LogAssert.NoUnexpectedReceived();
-        }
-
-        [Test]
-        public void A_build_that_strips_nothing_that_is_felt_is_not()
-        {
-            PlayerSettings.stripUnusedMeshComponents = true;
-            KnurlSurface plain = MakeShown(ShaderPropertyType.Color), ruled = MakeShown();
-            ruled.Axis = Vector3.right;
-            Process(null, plain); // played in the editor
-            Process(new BuildReport(), MakeShown(ShaderPropertyType.Color, ShaderPropertyType.Texture), ruled);
-            PlayerSettings.stripUnusedMeshComponents = false;
-            Process(new BuildReport(), plain);
-            LogAssert.NoUnexpectedReceived();
-        }
     }
 }

@@ -202,6 +202,7 @@ class Packing(package.InFolder):
         for key in validate.ADDRESSES:
             path = manifest[key].removeprefix(url + "/blob/main/")
             self.assertTrue(os.path.isfile(os.path.join(package.ROOT, path)), path)
+        self.assertIn(f'Page = "{manifest["documentationUrl"]}"', package.read(self.stem, "Runtime/Manual.cs"))
         self.assertIn("expected an https address", pack(self.out, self.linux, KNURL_URL="knurl").stderr)
 
     def test_it_is_signed_where_there_are_the_means(self):

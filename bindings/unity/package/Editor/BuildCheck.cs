@@ -10,59 +10,86 @@ using UnityEngine.SceneManagement;
 
 namespace Knurl.Editing
 {
-    /// <summary>Warns of surfaces that would feel different in a player than in the editor: Optimize Mesh Data removes
-    /// UVs and tangents that no material's shader uses, but a grating's x follows them. Checks scenes while they are
-    /// built, and prefabs before that.</summary>
+    /// <summary>Stores the geometry of a scene's surfaces that would not be felt in a player, or differently: meshes that are
+    /// not readable or merged by static batching, and UVs and tangents that Optimize Mesh Data removes because no material's
+    /// shader uses them, although a grating's x follows them. Warns of such surfaces in prefabs.</summary>
     internal sealed class BuildCheck : IPreprocessBuildWithReport, IProcessSceneWithReport
     {
+        /// <summary>Before Unity's own steps, which have 0: static batching merges meshes.</summary>
         public int callbackOrder
         {
-            get { return 0; }
+            get { return -1000; }
         }
 
         public void OnPreprocessBuild(BuildReport report)
         {
-            if (!PlayerSettings.stripUnusedMeshComponents)
-            {
-                return;
-            }
             foreach (string guid in AssetDatabase.FindAssets("t:Prefab"))
             {
                 string path = AssetDatabase.GUIDToAssetPath(guid);
                 var prefab = AssetDatabase.LoadAssetAtPath<GameObject>(path);
-                Warn(path, prefab == null ? new GameObject[0] : new[] { prefab });
-            }
-        }
-
-        /// <summary>report: null if a scene is only played in the editor.</summary>
-        public void OnProcessScene(Scene scene, BuildReport report)
-        {
-            if (report != null && PlayerSettings.stripUnusedMeshComponents)
-            {
-                Warn(scene.path, scene.GetRootGameObjects());
-            }
-        }
-
-        static void Warn(string where, IEnumerable<GameObject> roots)
-        {
-            foreach (KnurlSurface surface in roots.SelectMany(root => root.GetComponentsInChildren<KnurlSurface>(true)))
-            {
-                if (LosesX(surface))
+                foreach (KnurlSurface surface in SurfacesOf(prefab == null ? new GameObject[0] : new[] { prefab }))
                 {
-                    Debug.LogWarning("Knurl: " + where + ": the surface '" + surface.name + "' has its x from UVs or "
-                        + "tangents that none of its materials uses: Optimize Mesh Data leaves them out of the player. Give "
-                        + "it an Axis or a material with a texture, or switch that off (Project Settings > Player).",
-                        surface);
+                    string fault = FaultOf(surface, true);
+                    if (fault != null && surface.Geometry == null)
+                    {
+                        Debug.LogWarning("Knurl: " + path + ": the surface '" + surface.name + "' is not felt in the player as "
+                            + "in the editor: " + fault + ". Press Store geometry in its inspector.", surface);
+                    }
                 }
             }
         }
 
-        internal static bool LosesX(KnurlSurface surface)
+        /// <summary>report: null if a scene is only played in the editor, where nothing is stripped.</summary>
+        public void OnProcessScene(Scene scene, BuildReport report)
         {
-            Mesh mesh;
+            var stored = new Dictionary<Mesh, KnurlGeometry>(); // of a mesh that several surfaces show
+            foreach (KnurlSurface surface in SurfacesOf(scene.GetRootGameObjects()))
+            {
+                if (FaultOf(surface, report != null) == null && !IsBatched(surface))
+                {
+                    continue;
+                }
+                Mesh mesh = surface.GetComponent<MeshFilter>().sharedMesh;
+                if (!stored.ContainsKey(mesh))
+                {
+                    stored.Add(mesh, KnurlGeometry.Of(mesh));
+                }
+                if (stored[mesh] != null)
+                {
+                    surface.Geometry = stored[mesh];
+                }
+                else if (surface.Geometry == null)
+                {
+                    Debug.LogWarning("Knurl: " + scene.path + ": the surface '" + surface.name + "' is not felt: its mesh '"
+                        + mesh.name + "' has no triangles that can be read", surface);
+                }
+            }
+        }
+
+        static IEnumerable<KnurlSurface> SurfacesOf(IEnumerable<GameObject> roots)
+        {
+            return roots.SelectMany(root => root.GetComponentsInChildren<KnurlSurface>(true));
+        }
+
+        static bool IsBatched(KnurlSurface surface)
+        {
+            StaticEditorFlags flags = GameObjectUtility.GetStaticEditorFlags(surface.gameObject);
+            return (flags & StaticEditorFlags.BatchingStatic) != 0 && surface.GetComponent<MeshFilter>().sharedMesh != null;
+        }
+
+        /// <summary>Why the mesh itself is not felt in a player as in the editor; null if it is.</summary>
+        internal static string FaultOf(KnurlSurface surface, bool isStripped)
+        {
+            var filter = surface.GetComponent<MeshFilter>();
+            Mesh mesh = filter == null ? null : filter.sharedMesh;
             var drawn = surface.GetComponent<Renderer>();
-            return surface.Axis == Vector3.zero && !surface.BoxCoordinates && surface.Grating != null && surface.FindMesh(out mesh) == null
-                && (drawn == null || !drawn.sharedMaterials.Any(HasTexture));
+            bool needsUvs = surface.Axis == Vector3.zero && !surface.BoxCoordinates;
+            return mesh == null || surface.Grating == null ? null
+                : !mesh.isReadable ? "Read/Write is off in the import settings of its mesh"
+                : isStripped && PlayerSettings.stripUnusedMeshComponents && needsUvs
+                    && (drawn == null || !drawn.sharedMaterials.Any(HasTexture))
+                ? "its x follows UVs or tangents that none of its materials uses, and Optimize Mesh Data leaves them out"
+                : null;
         }
 
         /// <summary>A shader with a texture uses UVs.</summary>

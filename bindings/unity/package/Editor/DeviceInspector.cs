@@ -47,7 +47,7 @@ namespace Knurl.Editing
         static readonly GUIContent Sound = new GUIContent("Sound", "Whether what is felt is heard, by the Knurl Sound " +
             "component of this object; one is added where there is none. Counts at once");
         static readonly GUIContent Layers = new GUIContent("Layers", "It feels the surfaces that have one of these layers " +
-            "too: a bit each. Counts at once");
+            "too. Counts at once");
 
 
         public override void OnInspectorGUI()

@@ -21,7 +21,7 @@ namespace Knurl.Editing
             new GUIContent("Stiffness (N/m)", "Of the wall. What a device can do is said at the surface"),
             new GUIContent("Damping (N s/m)", "Along the surface's normal"),
             new GUIContent("Friction (coefficient)", "Dry friction across the surface"),
-            new GUIContent("Orientation (rad)", "Turns the grating's x and y counter-clockwise about the normal, " +
+            new GUIContent("Orientation (degrees)", "Turns the grating's x and y counter-clockwise about the normal, " +
                 "seen from outside"),
             new GUIContent("Method", "S1 looks the height up at the position; S2 plays balanced events at the " +
                 "frequency that the velocity asks for; Bandlimited, the default, plays of the ridges' harmonics those " +

@@ -131,6 +131,12 @@ namespace Knurl.Editing
             return null;
         }
 
+        [MenuItem("Help/Knurl Haptics")]
+        static void OpenManual()
+        {
+            EditorUtility.OpenWithDefaultApp(Path.GetFullPath("Packages/com.knurl.haptics/Documentation~/com.knurl.haptics.md"));
+        }
+
         [MenuItem(ReadTags, false, 1000)]
         static void ReadSelectedTags()
         {

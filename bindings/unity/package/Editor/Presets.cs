@@ -57,7 +57,8 @@ namespace Knurl.Editing
             return Save(ScriptableObject.CreateInstance<KnurlGrating>(), "Grating");
         }
 
-        static KnurlGrating Save(KnurlGrating made, string name)
+        /// <summary>Makes an asset of it, below Assets/Gratings.</summary>
+        internal static T Save<T>(T made, string name) where T : ScriptableObject
         {
             if (!AssetDatabase.IsValidFolder(Own))
             {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 using UnityEditor;
+using UnityEditor.SceneManagement;
 using UnityEngine;
 
 namespace Knurl.Editing
@@ -24,8 +25,7 @@ namespace Knurl.Editing
         static readonly GUIContent Reaction = new GUIContent("Reaction", "Whether the nearest Rigidbody at or above it is " +
             "pushed by the opposite of what the hand feels");
 
-        static readonly GUIContent Layers = new GUIContent("Layers", "Only devices feel it that have one of these layers too: " +
-            "a bit each");
+        static readonly GUIContent Layers = new GUIContent("Layers", "Only devices feel it that have one of these layers too");
 
         static readonly string[] Events = { "touched", "released", "ridgesPassed" };
 
@@ -86,6 +86,7 @@ namespace Knurl.Editing
             }
             DrawWarnings(warnings);
             DrawMakeReadable(surface.GetComponent<MeshFilter>());
+            DrawStore(surface);
             if (!EditorApplication.isPlaying)
             {
                 return;
@@ -101,6 +102,22 @@ namespace Knurl.Editing
             {
                 Readable.Make(filter.sharedMesh);
                 lookAgain = 0.0;
+            }
+        }
+
+        /// <summary>For prefabs: a scene's surfaces are stored when it is built.</summary>
+        void DrawStore(KnurlSurface surface)
+        {
+            bool isStored = surface.Geometry != null, isPrefabs = EditorUtility.IsPersistent(surface)
+                || PrefabStageUtility.GetPrefabStage(surface.gameObject) != null;
+            string fault = isPrefabs ? BuildCheck.FaultOf(surface, true) : null;
+            if ((fault != null || isStored) && GUILayout.Button(isStored ? "Store geometry again" : "Store geometry"))
+            {
+                KnurlGeometry made = KnurlGeometry.Of(surface.GetComponent<MeshFilter>().sharedMesh);
+                if (made != null)
+                {
+                    Change("geometry", property => property.objectReferenceValue = Presets.Save(made, made.name + " geometry"));
+                }
             }
         }
 

@@ -6,6 +6,7 @@ namespace Knurl
     /// <summary>Moves its object to a device's contact point on a surface, or to the stylus itself. Give the object a
     /// mesh to make it visible. Main thread.</summary>
     [AddComponentMenu("Knurl/Knurl Cursor")]
+    [HelpURL(Manual.Cursor)]
     [DefaultExecutionOrder(1001)] // after the devices
     [DisallowMultipleComponent]
     public sealed class KnurlCursor : MonoBehaviour

@@ -104,9 +104,10 @@ namespace Knurl
             {
                 warnings.Add("Its workspace scale is not above 0: it cannot start.");
             }
-            if (!string.IsNullOrEmpty(stroke) && !(device ?? "").StartsWith("fake", StringComparison.Ordinal))
+            if (string.IsNullOrEmpty(stroke) && device == "fake")
             {
-                warnings.Add("It has a stroke, which only the device fake has a hand for.");
+                warnings.Add("Its simulated hand stands still and feels nothing unless a surface is where it is: choose a "
+                    + "Stroke, for example sweep, or another Device.");
             }
             return warnings.ToArray();
         }

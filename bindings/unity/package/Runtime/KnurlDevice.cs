@@ -11,6 +11,7 @@ namespace Knurl
     /// game is paused, has a time scale of 0, hangs for more than 0.25 s, or disables the device. All members: main
     /// thread.</summary>
     [AddComponentMenu("Knurl/Knurl Device")]
+    [HelpURL(Manual.Device)]
     [DefaultExecutionOrder(1000)] // last in a frame, after other scripts have moved objects
     [DisallowMultipleComponent]
     public sealed partial class KnurlDevice : MonoBehaviour
@@ -21,7 +22,7 @@ namespace Knurl
         string device = "fake";
 
         [SerializeField, Tooltip("What the fake device's simulated hand does over the first surface: line, sweep, "
-            + "circle, press or rest. Empty: it stands still at the workspace's origin.")]
+            + "circle, press or rest. Empty: it stands still at the workspace's origin. Other devices have no use for it.")]
         string stroke = "";
 
         [SerializeField, Min(0f), Tooltip("Ticks a second, 100 to 10000. Hz")]
@@ -72,7 +73,7 @@ namespace Knurl
             + "where there is none. Counts at once.")]
         bool sound;
 
-        [SerializeField, Tooltip("It feels the surfaces that have one of these layers too: a bit each.")]
+        [SerializeField, Layers, Tooltip("It feels the surfaces that have one of these layers too.")]
         int layers = 1;
 
         /// <summary>Invoked when a surface is touched; the one pressed deepest if there are several. Null for a surface
@@ -107,7 +108,8 @@ namespace Knurl
         }
 
         /// <summary>Path of the fake device's simulated hand over the first surface: line, sweep, circle, press or
-        /// rest. Empty, the default: it rests at the workspace's origin.</summary>
+        /// rest. Empty: it rests at the workspace's origin. Default: empty, and sweep for a component that is added in the
+        /// editor. Other devices ignore it.</summary>
         public string Stroke
         {
             get { return stroke; }
@@ -232,6 +234,12 @@ namespace Knurl
         {
             get { return layers; }
             set { layers = value; }
+        }
+
+        /// <summary>In the editor, for a new component: something is felt at once.</summary>
+        void Reset()
+        {
+            stroke = "sweep";
         }
 
         void Complain(string what, string sentence)

@@ -9,6 +9,7 @@ namespace Knurl
     /// stiffness and damping that a loosely held device holds steady. Values are checked when a device uses them: one out
     /// of range is an error in the console, and the device's effects stay as they were. Main thread.</summary>
     [AddComponentMenu("Knurl/Knurl Effect")]
+    [HelpURL(Manual.Effect)]
     public sealed class KnurlEffect : MonoBehaviour
     {
         [SerializeField, Tooltip("The kind of effect.")]
@@ -30,7 +31,7 @@ namespace Knurl
         [SerializeField, Min(0f), Tooltip("The longest force of this effect, 0.01 to 1000; of a Force the force itself. N")]
         float maxForce = 2f;
 
-        [SerializeField, Tooltip("Only devices feel it that have one of these layers too: a bit each.")]
+        [SerializeField, Layers, Tooltip("Only devices feel it that have one of these layers too.")]
         int layers = 1;
 
         /// <summary>The kind of effect. Default Spring.</summary>
@@ -76,7 +77,7 @@ namespace Knurl
             set { maxForce = value; }
         }
 
-        /// <summary>Only devices feel it that have one of these layers too: a bit each. Default 1.</summary>
+        /// <summary>Only devices feel it that have one of these layers too. Default 1.</summary>
         public int Layers
         {
             get { return layers; }

@@ -8,6 +8,7 @@ namespace Knurl
     /// change is felt from the next frame on, on all of them. All values are per metre of the scene, so a workspace
     /// that is scaled up feels stiffer. Values are checked when a device uses them: a value out of range is an error in
     /// the console, and the surface feels as before. Main thread.</summary>
+    [HelpURL(Manual.Grating)]
     [CreateAssetMenu(menuName = "Knurl/Grating", fileName = "Grating")]
     public sealed class KnurlGrating : ScriptableObject
     {
@@ -27,7 +28,7 @@ namespace Knurl
         [SerializeField, Min(0f), Tooltip("Coefficient of dry friction across the surface.")]
         float friction;
 
-        [SerializeField, Tooltip("Turns the grating's x and y counter-clockwise about the normal. rad")]
+        [SerializeField, Degrees, Tooltip("Turns the grating's x and y counter-clockwise about the normal. Degrees; in scripts rad")]
         float orientation;
 
         [SerializeField, Tooltip("How ridges are rendered. Default: as Bandlimited.")]

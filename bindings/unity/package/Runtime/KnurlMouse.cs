@@ -7,6 +7,7 @@ namespace Knurl
     /// pointer. The left button presses, the wheel sets the depth. On a curved surface it moves in the tangent plane at
     /// the middle. Main thread.</summary>
     [AddComponentMenu("Knurl/Knurl Mouse")]
+    [HelpURL(Manual.Cursor)]
     [DisallowMultipleComponent]
     [RequireComponent(typeof(KnurlDevice))]
     public sealed class KnurlMouse : MonoBehaviour

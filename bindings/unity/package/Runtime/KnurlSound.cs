@@ -8,6 +8,7 @@ namespace Knurl
     /// the AudioSource of the same object, which sets volume, position and mixer group. All channels get the same
     /// samples, added to those that the source plays itself.</summary>
     [AddComponentMenu("Knurl/Knurl Sound")]
+    [HelpURL(Manual.Sound)]
     [RequireComponent(typeof(AudioSource))]
     [DisallowMultipleComponent]
     public sealed class KnurlSound : MonoBehaviour

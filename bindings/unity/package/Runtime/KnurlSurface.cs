@@ -12,6 +12,7 @@ namespace Knurl
     /// Rigidbody without interpolation. Scale is baked into the mesh, which is read again when the scale changes, in
     /// at most a fiftieth of the game's time; in between it only moves. Main thread.</summary>
     [AddComponentMenu("Knurl/Knurl Surface")]
+    [HelpURL(Manual.Surface)]
     [DisallowMultipleComponent]
     [RequireComponent(typeof(MeshFilter))]
     public sealed class KnurlSurface : MonoBehaviour
@@ -38,8 +39,11 @@ namespace Knurl
             + "feels.")]
         bool reaction;
 
-        [SerializeField, Tooltip("Only devices feel it that have one of these layers too: a bit each.")]
+        [SerializeField, Layers, Tooltip("Only devices feel it that have one of these layers too.")]
         int layers = 1;
+
+        [SerializeField, HideInInspector, Tooltip("Stored triangles, for meshes that a player cannot read.")]
+        KnurlGeometry geometry;
 
         /// <summary>Invoked when a device touches it, see <see cref="KnurlDevice.contactStarted"/>.</summary>
         public KnurlTouchEvent touched = new KnurlTouchEvent();
@@ -117,6 +121,14 @@ namespace Knurl
         {
             get { return layers; }
             set { layers = value; }
+        }
+
+        /// <summary>Stored triangles, which are felt in place of a mesh that cannot be read, and in a built game always. Null,
+        /// the default: none. A scene's surfaces get theirs when it is built.</summary>
+        public KnurlGeometry Geometry
+        {
+            get { return geometry; }
+            set { geometry = value; Made++; }
         }
 
         /// <summary>Number of triangles that are felt; 0 if no running device feels it.</summary>
@@ -215,6 +227,11 @@ namespace Knurl
                 ? "Its mesh was merged with others into '" + mesh.name + "' by static batching: clear Batching Static "
                     + "among the static flags of its GameObject."
                 : MeshReader.Refusal(mesh);
+            if (geometry != null && (refusal != null || !Application.isEditor))
+            {
+                mesh = geometry.Mesh;
+                return null;
+            }
             mesh = refusal == null ? mesh : null;
             return refusal;
         }

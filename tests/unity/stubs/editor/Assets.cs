@@ -309,6 +309,7 @@ namespace UnityEditor
     {
         public static readonly List<string> Dialogs = new List<string>();
         public static string Chosen = "";
+        public static void OpenWithDefaultApp(string fileName) { Dialogs.Add("open " + fileName); }
         public static void SetDirty(UnityEngine.Object o) { }
         /// All fields that are serialised, and the name. Not: copies of arrays, which are shared.
         public static void CopySerialized(UnityEngine.Object source, UnityEngine.Object dest)
@@ -365,8 +366,20 @@ namespace UnityEditor
         public static string GetPrefabAssetPathOfNearestInstanceRoot(UnityEngine.Object o) { return ""; }
     }
 
+    [Flags]
+    public enum StaticEditorFlags { BatchingStatic = 4 }
+
     public static class GameObjectUtility
     {
+        /// A test fills it in.
+        public static readonly Dictionary<GameObject, StaticEditorFlags> Flags = new Dictionary<GameObject, StaticEditorFlags>();
+
+        public static StaticEditorFlags GetStaticEditorFlags(GameObject go)
+        {
+            StaticEditorFlags flags;
+            return Flags.TryGetValue(go, out flags) ? flags : 0;
+        }
+
         public static void EnsureUniqueNameForSibling(GameObject self) { }
         public static void SetParentAndAlign(GameObject child, GameObject parent)
         {
@@ -392,6 +405,16 @@ namespace UnityEditor
 
     namespace SceneManagement
     {
+        public sealed class PrefabStage { }
+
+        public static class PrefabStageUtility
+        {
+            public static PrefabStage GetPrefabStage(GameObject gameObject)
+            {
+                return StageUtility.Open != null && gameObject == StageUtility.Open ? new PrefabStage() : null;
+            }
+        }
+
         public static class StageUtility
         {
             /// The root of the open prefab, set by a test; it becomes the parent.

@@ -195,6 +195,7 @@ namespace UnityEditor
         public static void Space(float width) { }
         public static float FloatField(string label, float value) { return Field(label, value); }
         public static float FloatField(GUIContent label, float value) { return Field(label.text, value); }
+        public static int MaskField(GUIContent label, int mask, string[] names) { return Field(label.text, mask); }
         public static string TextField(string label, string value) { return Field(label, value); }
         public static bool Toggle(string label, bool value) { return Field(label, value); }
         public static bool Toggle(GUIContent label, bool value) { return Field(label.text, value); }
@@ -242,6 +243,19 @@ namespace UnityEditor
         public static void BeginChangeCheck() { }
         public static bool EndChangeCheck() { return EditorGUILayout.Answers.Count > 0; }
         public static void DrawRect(Rect rect, Color color) { EditorGUILayout.Drawn.Add("rect"); }
+        public static GUIContent BeginProperty(Rect rect, GUIContent label, SerializedProperty property) { return label; }
+        public static void EndProperty() { }
+
+        public static int MaskField(Rect rect, GUIContent label, int mask, string[] names)
+        {
+            return EditorGUILayout.MaskField(label, mask, names);
+        }
+
+        public static float FloatField(Rect rect, GUIContent label, float value)
+        {
+            return EditorGUILayout.FloatField(label, value);
+        }
+
         public static void LabelField(Rect rect, string text) { EditorGUILayout.Drawn.Add("label " + text); }
         public static void BeginDisabledGroup(bool disabled) { }
         public static void EndDisabledGroup() { }

@@ -108,6 +108,9 @@ namespace UnityEngine
     }
 
     [AttributeUsage(AttributeTargets.Class)]
+    public sealed class PreferBinarySerialization : Attribute { }
+
+    [AttributeUsage(AttributeTargets.Class)]
     public sealed class HelpURLAttribute : Attribute
     {
         public string URL { get; private set; }

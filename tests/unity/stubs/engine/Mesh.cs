@@ -94,12 +94,13 @@ namespace UnityEngine
         bool Allowed(string what)
         {
             Living();
-            if (!readable)
+            bool isAllowed = readable || (Application.isEditor && !Application.isPlaying); // MeshUtility's reference
+            if (!isAllowed)
             {
                 Debug.LogError("Not allowed to access " + what + " on mesh '" + held +
                                "' (isReadable is false; Read/Write must be enabled in import settings)", this);
             }
-            return readable;
+            return isAllowed;
         }
 
         T[] Copy<T>(T[] from, string what) { return Allowed(what) ? (T[])from.Clone() : new T[0]; }

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+using System;
+using System.Collections.Generic;
+using UnityEngine;
+using UnityEngine.Rendering;
+
+namespace Knurl
+{
+    /// <summary>The triangles of a mesh, stored beside it, so that a build can feel a mesh that is not readable, merged by
+    /// static batching or without its UVs. Knurl makes them for the surfaces of scenes when a scene is built or played; the
+    /// surface's inspector makes one as an asset, for prefabs. Main thread.</summary>
+    [PreferBinarySerialization]
+    public sealed class KnurlGeometry : ScriptableObject
+    {
+        [SerializeField, HideInInspector] Vector3[] vertices = new Vector3[0]; // m, mesh axes
+        [SerializeField, HideInInspector] Vector3[] normals = new Vector3[0];
+        [SerializeField, HideInInspector] Vector4[] tangents = new Vector4[0];
+        [SerializeField, HideInInspector] Vector2[] uvs = new Vector2[0];
+        [SerializeField, HideInInspector] int[] triangles = new int[0];
+
+        [NonSerialized] Mesh mesh;
+
+        /// <summary>Stores a mesh that can be read now; null if it has no triangles.</summary>
+        internal static KnurlGeometry Of(Mesh mesh)
+        {
+            var indices = new List<int>();
+            for (int i = 0; i < mesh.subMeshCount; i++)
+            {
+                indices.AddRange(mesh.GetTopology(i) == MeshTopology.Triangles ? mesh.GetIndices(i) : new int[0]);
+            }
+            if (indices.Count == 0 || mesh.vertices.Length == 0)
+            {
+                return null;
+            }
+            var made = CreateInstance<KnurlGeometry>();
+            made.name = mesh.name;
+            made.vertices = mesh.vertices;
+            made.normals = mesh.normals;
+            made.tangents = mesh.tangents;
+            made.uvs = mesh.uv;
+            made.triangles = indices.ToArray();
+            return made;
+        }
+
+        /// <summary>A readable mesh, the same for all surfaces that have this geometry.</summary>
+        internal Mesh Mesh
+        {
+            get
+            {
+                if (mesh == null)
+                {
+                    mesh = new Mesh
+                    {
+                        name = name,
+                        indexFormat = vertices.Length > ushort.MaxValue ? IndexFormat.UInt32 : IndexFormat.UInt16,
+                        vertices = vertices,
+                        normals = normals,
+                        tangents = tangents,
+                        uv = uvs,
+                    };
+                    mesh.SetIndices(triangles, MeshTopology.Triangles, 0);
+                }
+                return mesh;
+            }
+        }
+    }
+}

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+using System.Linq;
+using System.Text.RegularExpressions;
+using Knurl.Cases;
+using Knurl.Editing;
+using NUnit.Framework;
+using UnityEditor;
+using UnityEditor.Build.Reporting;
+using UnityEditor.SceneManagement;
+using UnityEngine;
+using UnityEngine.Rendering;
+using UnityEngine.SceneManagement;
+using UnityEngine.TestTools;
+
+namespace Knurl.Tests
+{
+    /// <summary>Surfaces whose meshes a player would lose: their geometry is stored while scenes are built.</summary>
+    [TestFixture]
+    public sealed class BuildCases : Suite
+    {
+        [SetUp]
+        public void SetUp()
+        {
+            Player.Clear();
+            GameObjectUtility.Flags.Clear();
+            PlayerSettings.stripUnusedMeshComponents = false;
+        }
+
+        [TearDown]
+        public void TearDown()
+        {
+            Application.isEditor = true;
+            Player.Clear();
+            StageUtility.Open = null;
+            PlayerSettings.stripUnusedMeshComponents = false;
+        }
+
+        KnurlSurface MakeShown(params ShaderPropertyType[] properties)
+        {
+            KnurlSurface surface = MakeSurface(Plate());
+            surface.gameObject.AddComponent<MeshRenderer>().sharedMaterial =
+                new Material(new Shader { Properties = properties });
+            return surface;
+        }
+
+        static void Process(BuildReport report, params KnurlSurface[] surfaces)
+        {
+            GameObject[] roots = surfaces.Select(surface => surface.gameObject).ToArray();
+            new BuildCheck().OnProcessScene(new Scene { Path = "Assets/a.unity", Roots = roots }, report);
+        }
+
+        static Mesh MeshOf(KnurlSurface surface)
+        {
+            return surface.GetComponent<MeshFilter>().sharedMesh;
+        }
+
+        /// <summary>In a player, with Unity's mesh as it would be there: the force of the wall, and the ridges.</summary>
+        void IsFelt(KnurlSurface surface)
+        {
+            MeshOf(surface).UploadMeshData(true);
+            Application.isEditor = false;
+            Player.EnterPlayMode();
+            Assert.AreEqual(new string[0], surface.GetWarnings());
+            Assert.AreEqual(32, Ridges(surface, Vector3.zero, Vector3.right), 1, "ridges of 1 mm on 0.8 of 40 mm");
+        }
+
+        [Test]
+        public void An_unreadable_mesh_is_felt_in_the_player()
+        {
+            KnurlSurface surface = MakeShown(ShaderPropertyType.Texture);
+            MeshOf(surface).UploadMeshData(true);
+            Process(new BuildReport(), surface);
+            IsFelt(surface);
+        }
+
+        [Test]
+        public void A_mesh_that_static_batching_will_merge_is_felt_in_the_player()
+        {
+            KnurlSurface surface = MakeShown(ShaderPropertyType.Texture);
+            GameObjectUtility.Flags[surface.gameObject] = StaticEditorFlags.BatchingStatic;
+            Process(new BuildReport(), surface);
+            surface.GetComponent<MeshFilter>().sharedMesh = Made(new Mesh { name = "Combined Mesh" });
+            IsFelt(surface);
+        }
+
+        [Test]
+        public void A_mesh_that_loses_its_uvs_keeps_its_direction_in_the_player()
+        {
+            PlayerSettings.stripUnusedMeshComponents = true;
+            KnurlSurface surface = MakeShown(ShaderPropertyType.Color);
+            Process(new BuildReport(), surface);
+            MeshOf(surface).uv = null;
+            IsFelt(surface);
+        }
+
+        [Test]
+        public void Surfaces_that_show_one_mesh_share_what_is_stored()
+        {
+            KnurlSurface one = MakeShown(ShaderPropertyType.Texture), two = MakeShown(ShaderPropertyType.Texture);
+            two.GetComponent<MeshFilter>().sharedMesh = MeshOf(one);
+            MeshOf(one).UploadMeshData(true);
+            Process(new BuildReport(), one, two);
+            Assert.That(one.Geometry, Is.Not.Null.And.SameAs(two.Geometry));
+        }
+
+        [Test]
+        public void Meshes_that_a_player_can_read_are_not_stored_twice()
+        {
+            PlayerSettings.stripUnusedMeshComponents = true;
+            KnurlSurface plain = MakeShown(ShaderPropertyType.Color), ruled = MakeShown();
+            ruled.Axis = Vector3.right;
+            Process(null, plain); // played in the editor, which strips nothing
+            Process(new BuildReport(), MakeShown(ShaderPropertyType.Color, ShaderPropertyType.Texture), ruled);
+            PlayerSettings.stripUnusedMeshComponents = false;
+            Process(new BuildReport(), plain);
+            Assert.That(plain.Geometry == null && ruled.Geometry == null);
+        }
+
+        /// <summary>Only scenes are processed in a build.</summary>
+        [Test]
+        public void A_prefabs_surface_is_warned_of_until_it_is_stored()
+        {
+            KnurlSurface surface = MakeShown(ShaderPropertyType.Texture);
+            MeshOf(surface).UploadMeshData(true);
+            AssetDatabase.CreateAsset(surface.gameObject, "Assets/a.prefab");
+            LogAssert.Expect(LogType.Warning, new Regex("Assets/a.prefab: the surface 'a'.*Read/Write.*Store geometry"));
+            new BuildCheck().OnPreprocessBuild(new BuildReport());
+            StageUtility.Open = surface.gameObject;
+            GUI.Pressed.Add("Store geometry");
+            Hooks.EditorOf(surface).OnInspectorGUI();
+            GUI.Pressed.Clear();
+            Assert.AreEqual("Assets/Gratings/plate geometry.asset", AssetDatabase.GetAssetPath(surface.Geometry));
+            new BuildCheck().OnPreprocessBuild(new BuildReport());
+            LogAssert.NoUnexpectedReceived();
+            IsFelt(surface);
+        }
+
+        [Test]
+        public void A_mesh_without_triangles_is_told()
+        {
+            KnurlSurface surface = MakeShown(ShaderPropertyType.Texture);
+            surface.GetComponent<MeshFilter>().sharedMesh = Made(new Mesh { name = "Nothing" });
+            MeshOf(surface).UploadMeshData(true);
+            LogAssert.Expect(LogType.Warning, new Regex("Assets/a.unity: the surface 'Plate'.*'Nothing'"));
+            Process(new BuildReport(), surface);
+        }
+    }
+}
