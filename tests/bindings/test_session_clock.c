@@ -249,8 +249,8 @@ TEST(a_right_guess_survives_a_clock_that_is_set_back) {
     knurl_session_destroy(r.s);
 }
 
-/* The five ways in which a Unity game moves things, with the clock that the package guesses for each. Physics runs 50 times
- * a second. A body with interpolation is shown a step late, in each frame. */
+/* The five ways in which a Unity game moves things, with the clock that the package guesses for each. Physics runs 50
+ * times a second. A body with interpolation is shown a step late, in each frame. */
 static const struct way {
     const char *name;
     uint32_t guess;
