@@ -29,7 +29,7 @@ compile() {
 }
 
 unity=(-define:UNITY_2021_3_OR_NEWER,UNITY_STANDALONE,UNITY_STANDALONE_LINUX,UNITY_INCLUDE_TESTS)
-editor=("${unity[@]}" -define:UNITY_EDITOR,UNITY_EDITOR_LINUX)
+editor=("${unity[@]}" -define:UNITY_EDITOR,UNITY_EDITOR_LINUX,KNURL_INPUT_SYSTEM) # the player: a project without it
 nunit=(-pkg:nunit)
 
 compile UnityEngine.dll "$out" -target:library -r:System.Web.Extensions.dll -- "$here"/stubs/engine/*.cs

@@ -13,11 +13,11 @@ namespace Knurl.Tests
     public class VersionTests : Suite
     {
         // The output of probe/Probe.cs with the library in `folder`.
-        static List<string> Probe(string folder)
+        static List<string> Probe(string folder, string how = "")
         {
             string path = folder == null ? null : Path.Combine(Repository.Folder, folder);
             string probe = Path.Combine(Repository.Folder, "Probe.exe");
-            var start = new ProcessStartInfo("timeout", "60 mono \"" + probe + "\"")
+            var start = new ProcessStartInfo("timeout", "60 mono \"" + probe + "\" " + how)
             {
                 UseShellExecute = false,
                 RedirectStandardOutput = true,
@@ -82,6 +82,19 @@ namespace Knurl.Tests
         public void ALibraryFromBeforeInterfacesIsOneSentenceWithBothVersions()
         {
             Fails(Probe("old"), NativeMethods.Version, "0.0.9");
+        }
+
+        /// <summary>On consoles, phones and pages.</summary>
+        [TestCase("empty")]
+        [TestCase("rubbish")]
+        public void ABuiltGameWithoutALibraryGoesOnWithOneLine(string folder)
+        {
+            File.WriteAllText(Path.Combine(Repository.Folder, "rubbish", "libknurl_unity.so"), "rubbish");
+            List<string> lines = Probe(folder, "game");
+            Assert.AreEqual(2, lines.Count(line => line.StartsWith("told: ")), string.Join("\n", lines.ToArray()));
+            string[] logs = lines.Where(line => line.StartsWith("log: ")).ToArray();
+            Assert.AreEqual(1, logs.Length, string.Join("\n", logs));
+            Contains(logs[0], "log: Log", "goes on without haptics");
         }
 
         [Test]

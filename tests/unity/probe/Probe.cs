@@ -6,7 +6,49 @@ namespace Knurl.Tests
 {
     internal static class Probe
     {
-        static int Main()
+        static int Main(string[] arguments)
+        {
+            if (arguments.Length > 0)
+            {
+                Application.isEditor = false;
+                PlayAGame();
+            }
+            else
+            {
+                CallEverything();
+            }
+            foreach (LogLine line in Debug.Lines)
+            {
+                Console.WriteLine("log: " + line);
+            }
+            Console.WriteLine("end");
+            return 0;
+        }
+
+        /// A built game whose components start by themselves.
+        static void PlayAGame()
+        {
+            Player.EnterPlayMode();
+            for (int i = 0; i < 2; i++)
+            {
+                var owner = new GameObject("Device");
+                KnurlDevice device = owner.AddComponent<KnurlDevice>();
+                device.Retry = 0.001f;
+                device.Sound = true;
+                device.startFailed.AddListener((code, text) => Console.WriteLine("told: " + text));
+                owner.AddComponent<KnurlMouse>();
+                owner.AddComponent<KnurlCursor>();
+                owner.AddComponent<KnurlRumble>();
+                owner.AddComponent<KnurlEffect>();
+                var plate = new GameObject("Surface");
+                plate.AddComponent<MeshFilter>().sharedMesh = new Mesh();
+                plate.AddComponent<KnurlSurface>().Grating = ScriptableObject.CreateInstance<KnurlGrating>();
+            }
+            Player.Frames(20);
+            Player.ExitPlayMode();
+        }
+
+        static void CallEverything()
         {
             Player.EnterPlayMode();
             KnurlDevice device = new GameObject("Device").AddComponent<KnurlDevice>();
@@ -35,12 +77,6 @@ namespace Knurl.Tests
                 Console.WriteLine("tags: " + e.Message);
             }
             Player.ExitPlayMode();
-            foreach (LogLine line in Debug.Lines)
-            {
-                Console.WriteLine("log: " + line);
-            }
-            Console.WriteLine("end");
-            return 0;
         }
     }
 }

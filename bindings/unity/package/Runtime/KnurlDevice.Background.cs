@@ -49,6 +49,7 @@ namespace Knurl
             session = null;
             following = null; // its surfaces go with the scene
             givenCount = 0;
+            DropRumble();
             Registry.Devices.Remove(this);
             Task<int> closed = Background.Run(() =>
             {

@@ -7,6 +7,8 @@ namespace Knurl
     public sealed partial class KnurlDevice
     {
         // A run does not survive a reload of scripts, so its state must not be serialized.
+        static bool isMissingTold;
+
         [NonSerialized] SessionHandle session; // while it runs; also between runs if a file was loaded
         [NonSerialized] Following following;   // as long as the session is open
         [NonSerialized] bool isRunning;
@@ -64,17 +66,34 @@ namespace Knurl
             }
         }
 
-        /// <summary>Starts it for autostart and retries. A failure that repeats is reported once.</summary>
+        /// <summary>Starts it for autostart.</summary>
         void StartByItself()
         {
             KnurlException failure = TryStart();
-            bool isFirst = failure != null && !hasFailed;
-            hasFailed = failure != null;
+            bool isMissing = failure != null && Library.IsMissing && !Application.isEditor;
+            hasFailed = failure != null && !isMissing; // no retry brings a library
             retryAt = Time.unscaledTime + retry;
-            if (isFirst)
+            if (isMissing)
+            {
+                TellMissing();
+            }
+            else if (failure != null)
             {
                 Complain("start", failure.Message);
+            }
+            if (failure != null)
+            {
                 TellStartFailed(failure);
+            }
+        }
+
+        /// <summary>A game on a system for which there is no library goes on without haptics.</summary>
+        static void TellMissing()
+        {
+            if (!isMissingTold)
+            {
+                isMissingTold = true;
+                Debug.Log("Knurl: there is no library for this system: the game goes on without haptics.");
             }
         }
 
@@ -255,6 +274,7 @@ namespace Knurl
                 while (NativeMethods.knurl_session_next_event(session, &ignored) != 0) { }
             }
             DropEffects();
+            DropRumble();
             if (following != null)
             {
                 following.Clear();

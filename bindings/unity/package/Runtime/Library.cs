@@ -10,6 +10,7 @@ namespace Knurl
 
         static bool isChecked;
         static string wrong;
+        static bool isMissing;
 
         /// <summary>Null if the library can be called, otherwise the reason and a remedy: then nothing else may be
         /// called. The result is cached; a failure is checked again after <see cref="ForgetFailure"/>.</summary>
@@ -21,6 +22,12 @@ namespace Knurl
                 isChecked = true;
             }
             return wrong;
+        }
+
+        /// <summary>True if there is no library that this system could load: on a console, a phone, a page.</summary>
+        internal static bool IsMissing
+        {
+            get { return Check() != null && isMissing; }
         }
 
         /// <summary>Throws the message of <see cref="Check"/>, if there is one.</summary>
@@ -41,6 +48,7 @@ namespace Knurl
 
         static string Look()
         {
+            isMissing = false;
             try
             {
                 string found = Utf8.Read(NativeMethods.knurl_unity_interface());
@@ -71,6 +79,7 @@ namespace Knurl
 
         static string CannotLoad(string why)
         {
+            isMissing = true;
             return "The native library " + NativeMethods.Library + " of Knurl " + NativeMethods.Version
                 + " cannot be loaded (" + why + "). There is one for Windows and one for Linux, both on x86_64, in the "
                 + "package's folder Plugins; where it is not there, " + Remedy + ".";

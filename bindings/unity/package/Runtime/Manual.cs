@@ -11,6 +11,7 @@ namespace Knurl
         internal const string Device = Page == "" ? "" : Page + "#knurldevice";
         internal const string Effect = Page == "" ? "" : Page + "#knurleffect";
         internal const string Grating = Page == "" ? "" : Page + "#knurlgrating";
+        internal const string Rumble = Page == "" ? "" : Page + "#knurlrumble";
         internal const string Sound = Page == "" ? "" : Page + "#knurlsound";
         internal const string Surface = Page == "" ? "" : Page + "#knurlsurface";
     }

@@ -42,6 +42,12 @@ namespace Knurl
             }
         }
 
+        /// <summary>bands: two numbers. False if there are none. Main thread.</summary>
+        internal bool GetRumble(double* bands)
+        {
+            return NativeMethods.knurl_sound_get_rumble((knurl_sound*)handle, bands) == NativeMethods.KNURL_OK;
+        }
+
         protected override bool ReleaseHandle()
         {
             NativeMethods.knurl_sound_release((knurl_sound*)handle);
