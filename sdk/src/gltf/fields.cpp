@@ -43,6 +43,14 @@ Fields Fields::item(const char *key, const char *kind, size_t i) const {
     return {array(key).at(i), kind, i};
 }
 
+Fields Fields::chosen(const char *key, const char *kind, uint32_t i) const {
+    const size_t count = array(key).size();
+    if (i >= count)
+        throw Failure(KNURL_ERROR_ARGUMENT, std::string(key) + ": expected an index below " + std::to_string(count) +
+                                                ", found " + std::to_string(i));
+    return item(key, kind, i);
+}
+
 Fields Fields::element(const char *key, size_t i) const {
     return {array(key).at(i), *this, prefix_ + key + "[" + std::to_string(i) + "]."};
 }

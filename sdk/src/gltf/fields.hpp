@@ -28,7 +28,9 @@ class Fields {
     std::optional<Fields> object(const char *key) const;
     /** Object i of the array under `key`, of its own kind in messages: "node" 3. */
     Fields item(const char *key, const char *kind, size_t i) const;
-    /** The same, as a part of this object. Its keys appear in messages as "key[i].name". */
+    /** The same with an index that the caller of the library chose: throws KNURL_ERROR_ARGUMENT beyond the end. */
+    Fields chosen(const char *key, const char *kind, uint32_t i) const;
+    /** The same as item(), as a part of this object. Its keys appear in messages as "key[i].name". */
     Fields element(const char *key, size_t i) const;
 
     /** "material 'bars' (0)" */

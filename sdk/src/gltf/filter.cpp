@@ -6,6 +6,15 @@
 #include <iterator>
 
 namespace knurl::gltf {
+
+BufferSource buffer_source(const Fields &root, uint32_t i) {
+    const Fields buffer = root.item("buffers", "buffer", i);
+    BufferSource source;
+    source.byte_length = buffer.required(buffer.whole("byteLength", 1), "byteLength", "a length in bytes");
+    source.uri = buffer.text("uri");
+    return source;
+}
+
 namespace {
 
 /// Stores a checked whole number in a member of tinygltf, whose integer types differ between versions.
@@ -168,16 +177,8 @@ class Filter {
         if (kept.byteStride % 4 != 0)
             view.refuse_value("byteStride", "a multiple of 4", *view.find("byteStride"));
         put(kept.buffer, buffer);
-        filtered_.buffers.try_emplace(kept.buffer, source_of(buffer));
+        filtered_.buffers.try_emplace(kept.buffer, buffer_source(root_, buffer));
         return kept;
-    }
-
-    BufferSource source_of(uint32_t i) const {
-        const Fields buffer = root_.item("buffers", "buffer", i);
-        BufferSource source;
-        source.byte_length = buffer.required(buffer.whole("byteLength", 1), "byteLength", "a length in bytes");
-        source.uri = buffer.text("uri");
-        return source;
     }
 
     using PrimitiveKey = std::array<int, 2 + std::size(attributes_read)>; ///< mode, and accessors' places or -1

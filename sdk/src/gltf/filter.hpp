@@ -33,6 +33,9 @@ struct Model {
 /** root: must outlive the result. Throws Failure. */
 Model filter(const Fields &root, const Outline &outline);
 
+/** Reads the properties of buffer i of a file. Throws Failure. */
+BufferSource buffer_source(const Fields &root, uint32_t i);
+
 /** The bytes of one buffer. Throws Failure. */
 Bytes read_buffer(int number, const BufferSource &source, const Resources &resources, Sources &sources);
 

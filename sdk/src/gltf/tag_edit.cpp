@@ -217,12 +217,9 @@ std::string edit_file(Bytes file, const Kind &kind, uint32_t index, const char *
     const Container container = split(file);
     const Json json = parse_json(container.json, budget);
     const Fields root(json, "", no_index);
-    const size_t count = root.array(kind.array).size();
-    if (index >= count)
-        throw Failure(KNURL_ERROR_ARGUMENT, std::string(kind.array) + ": expected an index below " +
-                                                std::to_string(count) + ", found " + std::to_string(index));
+    const Fields object = root.chosen(kind.array, kind.name, index);
     std::string text(container.json);
-    edit_object(text, objects_of(text, kind.array).at(index).value, patch, root.item(kind.array, kind.name, index));
+    edit_object(text, objects_of(text, kind.array).at(index).value, patch, object);
     const Json edited = parse_json(text, budget);
     (void)read_tag(Fields(edited, "", no_index).item(kind.array, kind.name, index));
     return with_json(file, container, std::move(text));

@@ -113,11 +113,7 @@ class Textures {
                                       "bufferView", "a bufferView or a uri"));
         const uint32_t number = view.required(view.index("buffer", root_.array("buffers").size(), "buffers"), "buffer",
                                               "the index of a buffer");
-        const Fields buffer = root_.item("buffers", "buffer", number);
-        BufferSource source;
-        source.byte_length = buffer.required(buffer.whole("byteLength", 1), "byteLength", "a length in bytes");
-        source.uri = buffer.text("uri");
-        const Bytes bytes = read_buffer(static_cast<int>(number), source, resources_, sources_);
+        const Bytes bytes = read_buffer(static_cast<int>(number), buffer_source(root_, number), resources_, sources_);
         const uint64_t begin = view.whole("byteOffset").value_or(0);
         const uint32_t length = view.required(view.whole("byteLength", 1), "byteLength", "a length in bytes");
         if (begin + length > bytes.size)
@@ -145,25 +141,17 @@ uint32_t material_of_mesh(const Fields &root, const Fields &mesh) {
     return mesh.required(found, "primitives", "at least one");
 }
 
-Fields item(const Fields &root, const char *array, const char *kind, uint32_t index) {
-    const size_t count = root.array(array).size();
-    if (index >= count)
-        throw Failure(KNURL_ERROR_ARGUMENT, std::string(array) + ": expected an index below " + std::to_string(count) +
-                                                ", found " + std::to_string(index));
-    return root.item(array, kind, index);
-}
-
 Fields material_of(const Fields &root, std::string_view array, uint32_t index) {
     if (array == "materials")
-        return item(root, "materials", "material", index);
+        return root.chosen("materials", "material", index);
     if (array == "nodes") {
-        const Fields node = item(root, "nodes", "node", index);
+        const Fields node = root.chosen("nodes", "node", index);
         index = node.required(node.index("mesh", root.array("meshes").size(), "meshes"), "mesh", "a mesh with UVs");
     } else if (array != "meshes") {
         throw Failure(KNURL_ERROR_ARGUMENT,
                       "array: expected 'materials', 'meshes' or 'nodes', found " + in_quotes(array));
     }
-    return root.item("materials", "material", material_of_mesh(root, item(root, "meshes", "mesh", index)));
+    return root.item("materials", "material", material_of_mesh(root, root.chosen("meshes", "mesh", index)));
 }
 
 void read_textures(Bytes file, std::optional<std::filesystem::path> folder, const char *array, uint32_t index,

@@ -2,7 +2,7 @@
  * position. No events, and no aliasing below f_h/2. At low speed it is the mean of the square wave over the
  * distance of the tick, which is as clean there, has sharper edges and swings to A only.
  * SPDX-License-Identifier: MIT */
-#include "grating/bandlimited.h"
+#include "grating/method.h"
 
 #include "base/base.h"
 #include "grating/follow.h"

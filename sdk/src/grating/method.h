@@ -23,6 +23,9 @@ typedef double knurl_height(const knurl_grating *grating, knurl_grating_state *s
                             knurl_along velocity, double period, int32_t has_position,
                             knurl_grating_output *output) KNURL_NONBLOCKING;
 
+/* The library's own, in files of their names; S1 and S2 in paper.c. */
+knurl_height knurl_s1_height, knurl_s2_height, knurl_bandlimited_height;
+
 typedef struct knurl_method {
     const char *name;
     knurl_height *height;

@@ -3,8 +3,6 @@
 
 #include "base/atomic.h"
 #include "base/handle.h"
-#include "grating/bandlimited.h"
-#include "grating/paper.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* The paper's methods: S1 (Eq. 11) and S2 (Algorithm 7 with Eqs. 12, 13). SPDX-License-Identifier: MIT */
-#include "grating/paper.h"
+#include "grating/method.h"
 
 #include "grating/phase.h"
 #include "grating/play.h"
@@ -26,8 +26,7 @@ double knurl_s2_height(const knurl_grating *grating, knurl_grating_state *state,
         return 0.0;
     }
     state->moving = grating->resolution > 0.0;
-    /* below a tick, however fast, it is played as 2 */
-    knurl_vibration_event_fill(ticks > 1.0 ? ticks : 1.0, grating->amplitude, &state->event);
+    knurl_vibration_event_fill(ticks, grating->amplitude, &state->event);
     state->next_tick = 0;
     state->event_count++;
     return knurl_grating_play(state, output);

@@ -208,12 +208,7 @@ __attribute__((noinline)) static void find_jointly(knurl_contacts *c, const knur
     }
     knurl_joint_contact(c, index, &path, flags);
     c->cache.of = NULL;
-    c->proxy.depth = 0.0;
-    if (c->proxy.holders) {
-        double way[3];
-        vec3_sub(c->proxy.at, position, way);
-        c->proxy.depth = vec3_length(way);
-    }
+    c->proxy.depth = c->proxy.holders ? sqrt(vec3_distance2(c->proxy.at, position)) : 0.0;
     if (c->proxy.holders && knurl_visits_of(c->budget.max).left - c->budget.visits.left <= FEW_VISITS) {
         knurl_candidates_look_ahead(&c->candidates, phase, index, &path);
     }

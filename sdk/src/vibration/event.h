@@ -7,7 +7,7 @@
 /* Algorithm 5's six values in units of A (event.c). */
 extern const double knurl_mixed_heights[6];
 
-/* knurl_vibration_event_prepare() without checks: 0 < period_ticks <= KNURL_MAX_PERIOD_TICKS, amplitude finite and >=
+/* knurl_vibration_event_prepare() without checks: 0 <= period_ticks <= KNURL_MAX_PERIOD_TICKS, amplitude finite and >=
  * 0. */
 void knurl_vibration_event_fill(double period_ticks, double amplitude, knurl_vibration_event *event) KNURL_NONBLOCKING;
 
