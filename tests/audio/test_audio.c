@@ -4,8 +4,6 @@
 
 #include <pthread.h>
 
-#define RATE   48000.0
-#define A_TICK 48   /* samples */
 #define WINDOW 4800 /* samples: 0.1 s, so that lines at multiples of 10 Hz are whole cycles */
 #define LEVEL  (0.5 * SWING / 0.25)
 
@@ -50,17 +48,6 @@ static void play(double fx, double fy, int ticks, float window[WINDOW]) {
     knurl_audio_destroy(audio);
 }
 
-/* The amplitude of a line. */
-static double line_at(const float window[WINDOW], double hz) {
-    double c = 0.0;
-    double s = 0.0;
-    for (int i = 0; i < WINDOW; i++) {
-        c += window[i] * cos(2.0 * PI * hz * i / RATE);
-        s += window[i] * sin(2.0 * PI * hz * i / RATE);
-    }
-    return 2.0 * sqrt(c * c + s * s) / WINDOW;
-}
-
 /* The filters, as documented in the header: a high pass of first order at 20 Hz, and the mean over an eighth of a
  * sample. */
 static double passed(double hz) {
@@ -76,7 +63,7 @@ TEST(a_line_grating_sounds_at_f_t_and_its_odd_harmonics) {
         play(f, 0.0, 600, window);
         for (int n = 1; n * f < 16000.0 && n < 20; n++) {
             const double expected = n % 2 == 1 ? LEVEL * 4.0 / (PI * n) * passed(n * f) : 0.0;
-            CHECK_CLOSE(line_at(window, n * f), expected, 0.002L * LEVEL);
+            CHECK_CLOSE(line_at(window, WINDOW, n * f), expected, 0.002L * LEVEL);
         }
     }
 }
@@ -99,8 +86,8 @@ TEST(a_fundamental_is_as_loud_as_its_square_wave) {
         }
         knurl_audio_destroy(audio);
         const double expected = 4.0 / PI * LEVEL * passed(hz);
-        print_message("%g Hz: %.2f dB\n", hz, 20.0 * log10(line_at(window, hz) / expected));
-        CHECK_CLOSE(line_at(window, hz), expected, 0.06 * expected); /* 0.5 dB */
+        print_message("%g Hz: %.2f dB\n", hz, 20.0 * log10(line_at(window, WINDOW, hz) / expected));
+        CHECK_CLOSE(line_at(window, WINDOW, hz), expected, 0.06 * expected); /* 0.5 dB */
     }
 }
 
@@ -113,10 +100,10 @@ TEST(inharmonic_parts_are_60_db_lower) {
         play(f, 0.0, 600, window);
         for (double hz = 10.0; hz < 20000.0; hz += 10.0) {
             const double n = hz / f;
-            worst = floor(n) == n ? worst : fmax(worst, line_at(window, hz));
+            worst = floor(n) == n ? worst : fmax(worst, line_at(window, WINDOW, hz));
         }
-        print_message("%4.0f Hz: %.1f dB\n", f, 20.0 * log10(worst / line_at(window, f)));
-        assert_true(worst < 1e-3 * line_at(window, f));
+        print_message("%4.0f Hz: %.1f dB\n", f, 20.0 * log10(worst / line_at(window, WINDOW, f)));
+        assert_true(worst < 1e-3 * line_at(window, WINDOW, f));
     }
 }
 
@@ -126,9 +113,10 @@ TEST(a_grid_sounds_at_sums_and_differences) {
     for (int n = 1; n <= 5; n += 2) { /* the product of two square waves, each a sum of odd cosines */
         for (int m = 1; m <= 3; m += 2) {
             const double expected = LEVEL * 8.0 / (PI * PI * n * m);
-            CHECK_CLOSE(line_at(window, fabs(300.0 * n - 70.0 * m)), expected * passed(300.0 * n - 70.0 * m),
+            CHECK_CLOSE(line_at(window, WINDOW, fabs(300.0 * n - 70.0 * m)), expected * passed(300.0 * n - 70.0 * m),
                         0.01L * LEVEL);
-            CHECK_CLOSE(line_at(window, 300.0 * n + 70.0 * m), expected * passed(300.0 * n + 70.0 * m), 0.01L * LEVEL);
+            CHECK_CLOSE(line_at(window, WINDOW, 300.0 * n + 70.0 * m), expected * passed(300.0 * n + 70.0 * m),
+                        0.01L * LEVEL);
         }
     }
 }

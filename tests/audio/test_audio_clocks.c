@@ -1,7 +1,6 @@
 /* Audio threads that are late, early, fast or slow; settings that are refused. SPDX-License-Identifier: MIT */
 #include "ticks.h"
 
-#define RATE  48000
 #define BLOCK 512
 #define FADE  0.005 /* s */
 

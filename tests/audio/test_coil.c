@@ -4,8 +4,6 @@
 
 #include "base/vec3.h"
 
-#define RATE   48000.0
-#define A_TICK 48
 #define WINDOW 48000 /* samples: 1 s */
 
 static knurl_audio *make_coil(double latency_s) {
@@ -38,15 +36,6 @@ static void play(knurl_audio *audio, double (*force)(int tick, double hz), doubl
     }
 }
 
-static double line_at(const float window[WINDOW], double hz) {
-    double c = 0.0, s = 0.0;
-    for (int i = 0; i < WINDOW; i++) {
-        c += window[i] * cos(2.0 * PI * hz * i / RATE);
-        s += window[i] * sin(2.0 * PI * hz * i / RATE);
-    }
-    return 2.0 * sqrt(c * c + s * s) / WINDOW;
-}
-
 static double decibels(double ratio) {
     return 20.0 * log10(ratio);
 }
@@ -63,8 +52,8 @@ TEST(a_coil_is_flat_from_10_to_400_hz_and_hides_the_ticks) {
         const double hz = frequencies[i];
         knurl_audio *audio = make_coil(0.001);
         play(audio, sine, hz, window);
-        const double level = decibels(line_at(window, hz) / 0.5);
-        const double image = decibels(line_at(window, 1000.0 - hz) / 0.5);
+        const double level = decibels(line_at(window, WINDOW, hz) / 0.5);
+        const double image = decibels(line_at(window, WINDOW, 1000.0 - hz) / 0.5);
         print_message("%3.0f Hz: %+5.2f dB, image %+6.1f dB\n", hz, level, image);
         assert_true(fabs(level) < (hz < 400.0 ? 0.5 : hz > 400.0 ? 3.0 : 1.0));
         assert_true(hz > 350.0 || image < -38.0);
@@ -81,7 +70,7 @@ TEST(a_weak_and_slow_force_is_played_too) {
     static float window[WINDOW];
     knurl_audio *audio = make_coil(0.001);
     play(audio, weak, 10.0, window);
-    assert_true(fabs(decibels(line_at(window, 10.0) / 1e-4)) < 0.5);
+    assert_true(fabs(decibels(line_at(window, WINDOW, 10.0) / 1e-4)) < 0.5);
     knurl_audio_destroy(audio);
 }
 
@@ -96,8 +85,8 @@ TEST(ridges_have_the_lines_of_the_sampled_height_that_is_felt) {
     play(audio, square, 50.0, window);
     for (int n = 1; n <= 7; n += 2) {
         const double felt = 0.2 * 4.0 / (20.0 * sin(PI * n / 20.0));
-        assert_true(fabs(decibels(line_at(window, 50.0 * n) / felt)) < 0.5);
-        assert_true(line_at(window, 50.0 * (n + 1)) < 1e-3);
+        assert_true(fabs(decibels(line_at(window, WINDOW, 50.0 * n) / felt)) < 0.5);
+        assert_true(line_at(window, WINDOW, 50.0 * (n + 1)) < 1e-3);
     }
     knurl_audio_destroy(audio);
 }

@@ -12,6 +12,8 @@
 #define AMPLITUDE 2e-4
 #define DEPTH     1e-3
 #define SWING     (STIFFNESS * AMPLITUDE) /* N, up and down */
+#define RATE      48000.0
+#define A_TICK    48 /* samples */
 
 /* The HIP at x, y cycles, moving with f_t. */
 static inline knurl_tick_output tick_on(double x, double y, double f_t) {
@@ -32,6 +34,16 @@ static inline knurl_tick_output tick_off(void) {
     knurl_tick_output tick;
     memset(&tick, 0, sizeof tick);
     return tick;
+}
+
+/* The amplitude of a line in `count` samples. */
+static inline double line_at(const float *window, int count, double hz) {
+    double c = 0.0, s = 0.0;
+    for (int i = 0; i < count; i++) {
+        c += window[i] * cos(2.0 * PI * hz * i / RATE);
+        s += window[i] * sin(2.0 * PI * hz * i / RATE);
+    }
+    return 2.0 * sqrt(c * c + s * s) / count;
 }
 
 static inline knurl_audio *make_audio(double latency_s) {

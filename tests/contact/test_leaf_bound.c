@@ -59,52 +59,28 @@ static void make_largest(uint64_t *seed, float positions[36], double p[3]) {
     }
 }
 
-TEST(the_bound_holds_at_the_largest_coordinates) {
-    float positions[36];
-    uint32_t corners[12];
-    knurl_mesh mesh;
-    uint64_t seed = 10;
-    int tested = 0;
-    memset(&mesh, 0, sizeof mesh);
-    mesh.positions = positions;
-    mesh.triangles = corners;
-    for (uint32_t i = 0; i < 12; i++) {
-        corners[i] = i;
-    }
-    for (int round = 0; round < 50000; round++) {
-        double p[3];
-        knurl_leaf_point from;
-        make_largest(&seed, positions, p);
-        knurl_leaf_point_set(p, &from);
-        const knurl_float4 bound2 = knurl_leaf_bound2(&mesh, 0, 3, &from);
-        for (uint32_t t = 0; t < 4; t++) {
-            knurl_closest_point closest;
-            if (quality(&mesh, t) > 0) {
-                knurl_closest_on_triangle(&mesh, t, p, &closest);
-                assert_false((double)bound2[t] > closest.distance2);
-                tested++;
-            }
-        }
-    }
-    assert_true(tested > 100000);
-}
+typedef void maker(uint64_t *seed, float positions[36], double p[3]);
 
-TEST(the_bound_is_never_above_the_distance_and_seldom_far_below) {
+/* Triangles tested, those of them that are not thin, and those of these whose bound is close. */
+typedef struct counts {
+    int tested, good, close;
+} counts;
+
+static counts compare(maker *make, uint64_t seed, int rounds) {
     float positions[36];
     uint32_t corners[12];
     knurl_mesh mesh;
-    uint64_t seed = 9;
-    int tested = 0, good = 0, close = 0;
+    counts n = {0, 0, 0};
     memset(&mesh, 0, sizeof mesh);
     mesh.positions = positions;
     mesh.triangles = corners;
     for (uint32_t i = 0; i < 12; i++) {
         corners[i] = i;
     }
-    for (int round = 0; round < 200000; round++) {
+    for (int round = 0; round < rounds; round++) {
         double p[3];
         knurl_leaf_point from;
-        make_triangles(&seed, positions, p);
+        make(&seed, positions, p);
         knurl_leaf_point_set(p, &from);
         const knurl_float4 bound2 = knurl_leaf_bound2(&mesh, 0, 3, &from);
         for (uint32_t t = 0; t < 4; t++) {
@@ -113,13 +89,22 @@ TEST(the_bound_is_never_above_the_distance_and_seldom_far_below) {
             if (kind > 0) {
                 knurl_closest_on_triangle(&mesh, t, p, &closest);
                 assert_false((double)bound2[t] > closest.distance2);
-                tested++;
-                good += kind == 2;
-                close += kind == 2 && (double)bound2[t] > 0.998 * closest.distance2;
+                n.tested++;
+                n.good += kind == 2;
+                n.close += kind == 2 && (double)bound2[t] > 0.998 * closest.distance2;
             }
         }
     }
-    assert_true(tested > 500000);
-    printf("leaf bound: %d triangles, %d of them not thin, %d with a close bound\n", tested, good, close);
-    assert_true(close > 0.9 * good); /* not if a point is a thousand times nearer than a triangle is long */
+    return n;
+}
+
+TEST(the_bound_holds_at_the_largest_coordinates) {
+    assert_true(compare(make_largest, 10, 50000).tested > 100000);
+}
+
+TEST(the_bound_is_never_above_the_distance_and_seldom_far_below) {
+    const counts n = compare(make_triangles, 9, 200000);
+    assert_true(n.tested > 500000);
+    printf("leaf bound: %d triangles, %d of them not thin, %d with a close bound\n", n.tested, n.good, n.close);
+    assert_true(n.close > 0.9 * n.good); /* not if a point is a thousand times nearer than a triangle is long */
 }

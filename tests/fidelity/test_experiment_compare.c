@@ -1,26 +1,15 @@
 /* Experiment 4, any two methods: orders, training, sessions that a crash ends, exclusions, the simulated subjects.
  * SPDX-License-Identifier: MIT */
+#include "experiment_runs.h"
 #include "support/close.h"
-#include "support/tool.h"
 
 #include "experiment.h"
 #include "inference.h"
-
-#define RUN(...) run_tool((const char *const[]){KNURL_TEST_EXPERIMENT, __VA_ARGS__, NULL})
 
 static exp_design compare(int32_t one, int32_t other) {
     exp_design design;
     assert_int_equal(exp_compare(one, other, &design), TOOL_OK);
     return design;
-}
-
-/* It failed with `code` and one line on standard error that holds `word`. Frees. */
-static void check_failed(process *p, int code, const char *word) {
-    if (p->signal != 0 || p->exit_code != code || strncmp(p->err, "knurl_experiment: ", 18) != 0 ||
-        lines_in(p->err) != 1 || !strstr(p->err, word) || p->sizes[0] != 0) {
-        fail_msg("exit %d instead of %d, wanted \"%s\": %s", p->exit_code, code, word, p->err);
-    }
-    process_free(p);
 }
 
 /* --- orders --- */

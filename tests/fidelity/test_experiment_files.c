@@ -1,9 +1,7 @@
 /* knurl_experiment as a program: whole sessions, their files, the analysis of answers that are known, refusals.
  * SPDX-License-Identifier: MIT */
+#include "experiment_runs.h"
 #include "support/close.h"
-#include "support/tool.h"
-
-#define RUN(...) run_tool((const char *const[]){KNURL_TEST_EXPERIMENT, __VA_ARGS__, NULL})
 
 #define HEADER                                                                                                         \
     "experiment,subject,answers,device,seed,sound,trial,block,period,amplitude,first,second,preferred,rt_s,ticks,"     \
@@ -12,15 +10,6 @@
 #define REST  ",1.5,10001,0,0,0,0,0,0,0,none,none\n"
 #define GOOD  "1,s1,keyboard,touch,1,yes,1,1,23,1.05,T1,T3,T3" REST
 #define GOOD2 "1,s1,keyboard,touch,1,yes,2,1,21,1.05,T3,T1,T1" REST
-
-/* It failed with `code` and one line on standard error that holds `word`. Frees. */
-static void check_failed(process *p, int code, const char *word) {
-    if (p->signal != 0 || p->exit_code != code || strncmp(p->err, "knurl_experiment: ", 18) != 0 ||
-        lines_in(p->err) != 1 || !strstr(p->err, word) || p->sizes[0] != 0) {
-        fail_msg("exit %d instead of %d, wanted \"%s\": %s", p->exit_code, code, word, p->err);
-    }
-    process_free(p);
-}
 
 /* --- sessions --- */
 

@@ -102,16 +102,18 @@ TEST(above_half_the_update_rate_the_sign_changes_every_tick) {
 }
 
 TEST(without_a_position_the_velocity_is_summed_up) {
-    band_scan with = band_on(FS, 0.0, RATE, 0.0), without = band_on(FS, 0.0, RATE, 0.0);
-    uint64_t seed = 4;
-    double x = 0.0, v = 0.1;
-    (void)band_x(&with, x, v);
-    (void)band_step(&without, NULL, v, 0.0);
-    without.state.tracked[0] = without.state.phase = 0.0;
-    for (int k = 0; k < 5000; k++) {
-        v += random_between(&seed, -0.01, 0.01) - 0.02 * v;
-        x += v / RATE;
-        CHECK_CLOSE(band_step(&without, NULL, v, 0.0), band_x(&with, x, v), 1e-6L);
+    for (int axis = 0; axis < 2; axis++) {
+        band_scan with = band_on(FS, 0.0, RATE, 0.0), without = band_on(axis ? 0.0 : FS, axis ? FS : 0.0, RATE, 0.0);
+        uint64_t seed = 4;
+        double x = 0.0, v = 0.1;
+        (void)band_x(&with, x, v);
+        (void)band_step(&without, NULL, axis ? 0.0 : v, axis ? v : 0.0);
+        without.state.tracked[axis] = without.state.phase = 0.0;
+        for (int k = 0; k < 5000; k++) {
+            v += random_between(&seed, -0.01, 0.01) - 0.02 * v;
+            x += v / RATE;
+            CHECK_CLOSE(band_step(&without, NULL, axis ? 0.0 : v, axis ? v : 0.0), band_x(&with, x, v), 1e-6L);
+        }
     }
 }
 

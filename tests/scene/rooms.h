@@ -3,6 +3,7 @@
 #ifndef KNURL_TEST_ROOMS_H
 #define KNURL_TEST_ROOMS_H
 
+#include "patch.h"
 #include "support/geometry.h"
 #include "support/poses.h"
 #include "support/scenes.h"
@@ -274,27 +275,10 @@ static inline room random_terrain(uint64_t *seed) {
 
 /* --- as the library is given it --- */
 
-/** A triangle list that grows. */
-typedef struct triangles {
-    shape s;
-    uint32_t used;
-} triangles;
-
-static inline void put_triangle(triangles *t, const double *a, const double *b, const double *c) {
-    const double *corners[3] = {a, b, c};
-    assert_true(t->used + 3 <= t->s.index_count);
-    for (int k = 0; k < 3; k++) {
-        shape_set(&t->s, t->used, corners[k][0], corners[k][1], corners[k][2]);
-        t->s.indices[t->used] = t->used;
-        t->used++;
-    }
-}
-
 /** A triangle, one of whose edges is split without splitting its neighbour's, with a frequency of `splits`. */
-static inline void put_split(triangles *t, uint64_t *seed, int splits, const double *a, const double *b,
-                             const double *c) {
+static inline void put_split(patch *t, uint64_t *seed, int splits, const double *a, const double *b, const double *c) {
     if (splits == 0) {
-        put_triangle(t, a, b, c);
+        add_triangle(t, a, b, c);
         return;
     }
     double middle[3];
@@ -303,17 +287,17 @@ static inline void put_split(triangles *t, uint64_t *seed, int splits, const dou
         middle[i] = (double)(float)((1.0 - share) * a[i] + share * b[i]);
     }
     put_split(t, seed, splits - 1, b, c, middle);
-    put_triangle(t, c, a, middle);
+    add_triangle(t, c, a, middle);
 }
 
-static inline void put_face(triangles *t, uint64_t *seed, const face *f) {
+static inline void put_face(patch *t, uint64_t *seed, const face *f) {
     for (int k = 2; k < f->count; k++) {
         put_split(t, seed, (int)random_integer(seed, 0, 2), f->corners[0], f->corners[k - 1], f->corners[k]);
     }
 }
 
-static inline triangles new_triangles(int solids) {
-    triangles t = {shape_new((uint32_t)(solids * SOLID_FACES * 2 * 9), (uint32_t)(solids * SOLID_FACES * 2 * 9), 0), 0};
+static inline patch new_triangles(int solids) {
+    patch t = {shape_new((uint32_t)(solids * SOLID_FACES * 2 * 9), (uint32_t)(solids * SOLID_FACES * 2 * 9), 0), 0};
     return t;
 }
 
@@ -325,7 +309,7 @@ static inline void lay(laid *l, knurl_scene *scene, surface_parts *parts, int mo
     (void)add_surface(scene, parts);
 }
 
-static inline void put_mesh(laid *l, knurl_scene *scene, triangles *t, const knurl_material_desc *material, int moves) {
+static inline void put_mesh(laid *l, knurl_scene *scene, patch *t, const knurl_material_desc *material, int moves) {
     t->s.index_count = t->s.vertex_count = t->used;
     if (l->reversed) {
         uint32_t *corners = &t->s.indices[l->reversed % (t->used / 3) * 3];
@@ -350,7 +334,7 @@ static inline void put_plane(laid *l, knurl_scene *scene, uint64_t *seed, const 
     add3(f->corners[2], -1.0, f->corners[1], across);
     const double x = length3(along), y = length3(across);
     if (f->count != 4 || fabs(dot3(along, across)) > 1e-9 * x * y) {
-        triangles t = new_triangles(1);
+        patch t = new_triangles(1);
         put_face(&t, seed, f);
         put_mesh(l, scene, &t, material, moves);
         return;
@@ -397,12 +381,12 @@ static inline void put_plane(laid *l, knurl_scene *scene, uint64_t *seed, const 
 /** All of a room's surfaces. */
 static inline void put_room(laid *l, knurl_scene *scene, uint64_t *seed, const room *r, int form,
                             const knurl_material_desc *material) {
-    triangles all = new_triangles(r->count);
+    patch all = new_triangles(r->count);
     for (int i = 0; i < r->count; i++) {
         const solid *s = &r->solids[i];
         const int any = form == ROOM_MIXED ? (int)random_integer(seed, ROOM_MESHES, ROOM_PLANES) : form;
         const int own = any == ROOM_ONE_MESH && s->moves != r->solids[0].moves ? ROOM_MESHES : any;
-        triangles t = new_triangles(1);
+        patch t = new_triangles(1);
         for (int f = 0; f < s->count; f++) {
             if (s->faces[f].hidden) {
                 continue;

@@ -108,6 +108,22 @@ static inline smooth_mesh smooth_make_sphere(int level) {
     return m;
 }
 
+/** A mesh's triangles apart, with the normals of their faces. */
+static inline smooth_mesh smooth_make_flat(shape s) {
+    smooth_mesh m = {s, NULL};
+    shape_unweld(&m.s);
+    m.normals = calloc(m.s.vertex_count, 3 * sizeof(float));
+    for (uint32_t i = 0; i < m.s.index_count / 3; i++) {
+        double corners[3][3], n[3];
+        shape_corners(&m.s, i, corners);
+        (void)normal3((const double (*)[3])corners, n);
+        for (uint32_t k = 0; k < 9; k++) {
+            m.normals[9 * i + k] = (float)n[k % 3];
+        }
+    }
+    return m;
+}
+
 static inline void smooth_free(smooth_mesh *m) {
     shape_free(&m->s);
     free(m->normals);

@@ -309,19 +309,24 @@ static void destroy_loop(void) {
     knurl_loop_destroy(s.loop);
 }
 
+/* To the end, on its own thread or stepped. */
+static void run_to_fifty(int is_stepped) {
+    if (is_stepped) {
+        assert_int_equal(knurl_loop_step(s.loop, 1000), KNURL_OK);
+    } else {
+        assert_int_equal(knurl_loop_start(s.loop), KNURL_OK);
+        assert_int_equal(knurl_loop_wait(s.loop, 10.0), 1);
+    }
+    assert_int_equal(stats_of(s.loop).ticks, 50);
+    assert_true(motor() == 0.0);
+}
+
 TEST(a_loop_that_is_destroyed_in_its_callback_only_ends) {
     for (int turn = 0; turn < 2; turn++) {
         set_up_callback(destroy_loop);
-        if (turn == 0) {
-            assert_int_equal(knurl_loop_start(s.loop), KNURL_OK);
-            assert_int_equal(knurl_loop_wait(s.loop, 10.0), 1);
-        } else {
-            assert_int_equal(knurl_loop_step(s.loop, 1000), KNURL_OK);
-        }
+        run_to_fifty(turn);
         assert_int_equal(stats_of(s.loop).state, KNURL_LOOP_DONE); /* it is still there */
-        assert_int_equal(stats_of(s.loop).ticks, 50);
-        assert_true(motor() == 0.0);
-        knurl_loop_destroy(s.loop); /* outside of it */
+        knurl_loop_destroy(s.loop);                                /* outside of it */
         knurl_device_close(s.device);
         knurl_scene_destroy(s.scene);
         check_all_gone();
@@ -331,14 +336,7 @@ TEST(a_loop_that_is_destroyed_in_its_callback_only_ends) {
 TEST(all_three_destroyed_in_a_callback_are_gone_with_the_loop) {
     for (int turn = 0; turn < 2; turn++) {
         set_up_callback(destroy_all);
-        if (turn == 0) {
-            assert_int_equal(knurl_loop_start(s.loop), KNURL_OK);
-            assert_int_equal(knurl_loop_wait(s.loop, 10.0), 1);
-        } else {
-            assert_int_equal(knurl_loop_step(s.loop, 1000), KNURL_OK);
-        }
-        assert_int_equal(stats_of(s.loop).ticks, 50);
-        assert_true(motor() == 0.0);
+        run_to_fifty(turn);
         assert_int_equal(s.home.closes, 0);
         knurl_loop_destroy(s.loop);
         check_all_gone();

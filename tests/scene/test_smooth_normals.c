@@ -97,18 +97,7 @@ TEST(a_smooth_sphere_says_how_far_it_is_from_its_triangles) {
 
 /* With the normals of their faces, meshes are felt as without normals, to the bit. */
 TEST(flat_normals_change_nothing) {
-    smooth_mesh m = smooth_make_sphere(2);
-    shape_unweld(&m.s);
-    free(m.normals);
-    m.normals = calloc(m.s.vertex_count, 3 * sizeof(float));
-    for (uint32_t i = 0; i < m.s.index_count / 3; i++) {
-        double corners[3][3], n[3];
-        shape_corners(&m.s, i, corners);
-        (void)normal3((const double (*)[3])corners, n);
-        for (uint32_t k = 0; k < 9; k++) {
-            m.normals[9 * i + k] = (float)n[k % 3];
-        }
-    }
+    smooth_mesh m = smooth_make_flat(shape_sphere(0.03, 2));
     surface_parts parts = smooth_surface(&m, 0);
     knurl_scene *with = scene_with(&m), *without = scene_of(&parts);
     assert_int_equal(info_of(with).curved_triangles + info_of(with).bad_normals, 0);

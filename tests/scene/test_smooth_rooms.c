@@ -75,21 +75,6 @@ static smooth_mesh make_can(uint32_t triangles) {
     return can;
 }
 
-static smooth_mesh make_box(void) {
-    smooth_mesh m = {shape_box(box_half, 0), NULL};
-    shape_unweld(&m.s);
-    m.normals = calloc(m.s.vertex_count, 3 * sizeof(float));
-    for (uint32_t i = 0; i < m.s.index_count / 3; i++) {
-        double corners[3][3], n[3];
-        shape_corners(&m.s, i, corners);
-        (void)normal3((const double (*)[3])corners, n);
-        for (uint32_t k = 0; k < 9; k++) {
-            m.normals[9 * i + k] = (float)n[k % 3];
-        }
-    }
-    return m;
-}
-
 static smooth_mesh make_solid(int kind) {
     switch (kind) {
     case BALL:
@@ -103,7 +88,7 @@ static smooth_mesh make_solid(int kind) {
     case CAN:
         return make_can(1300);
     default:
-        return make_box();
+        return smooth_make_flat(shape_box(box_half, 0));
     }
 }
 
