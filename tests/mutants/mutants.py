@@ -186,7 +186,9 @@ def build(numbered):
         if made.returncode == 0:
             return refused
         wrong = set(
-            re.findall(r"(sdk/src/\w+/[\w.]+):(\d+):\d+: (?:fatal error|error|note: in expansion)", made.stdout)
+            re.findall(  # an error in a header is told with the place it was inlined at
+                r"(sdk/src/\w+/[\w.]+):(\d+):\d+:(?: (?:fatal error|error|note: in expansion)|$)", made.stdout, re.M
+            )
         )
         bad = [
             number
