@@ -8,16 +8,18 @@
 
 static void try_message(const uint8_t *data, size_t size) {
     knurl_inverse3_state state;
-    double q[4];
+    knurl_inverse3_grip grip;
     if (!knurl_inverse3_read((const char *)data, size, &state)) {
         return;
     }
-    knurl_inverse3_orientation(&state, q);
+    knurl_inverse3_find_grip(&state, "", &grip);
+    EXPECT(grip.battery >= 0.0 && grip.battery <= 1.0);
     for (int i = 0; i < KNURL_INVERSE3_DEVICES; i++) {
         const knurl_inverse3_entry *entry = &state.entries[i];
         EXPECT(memchr(entry->id, '\0', sizeof entry->id) && !strpbrk(entry->id, "\"\\{}"));
         EXPECT(isfinite(entry->position[0]) && isfinite(entry->position[1]) && isfinite(entry->position[2]));
-        EXPECT(isfinite(q[i % 4]) && fabs(q[i % 4]) <= 1.0 + 1e-9);
+        EXPECT(isfinite(entry->joints[i % 3]));
+        EXPECT(isfinite(grip.orientation[i % 4]) && fabs(grip.orientation[i % 4]) <= 1.0 + 1e-9);
     }
 }
 

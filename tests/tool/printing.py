@@ -21,7 +21,7 @@ WRITERS = {
     "samples/knurl/texture_draw.c": "draws numbers as SVG, no names",
 }
 # Small programs for readers: of text they print the library's messages and names, which have passed knurl_text_line().
-EXAMPLES = ("samples/hello_grating.c", "samples/feel_scene.c", "samples/slider.c", "samples/coil.c", "samples/touch_grating.c", "samples/conform/conform.c")
+EXAMPLES = ("samples/hello_grating.c", "samples/feel_scene.c", "samples/slider.c", "samples/coil.c", "samples/gripper.c", "samples/touch_grating.c", "samples/conform/conform.c")
 
 READERS = ("samples/draw_run.py", "samples/study/plot.py")  # of files that others made; they print by one_line() or
 CLEAN = {"BadInput", "ImportError"}  # messages of these exceptions

@@ -27,6 +27,7 @@ static void tell_loop(const knurl_loop_stats *stats, void *to) {
     whole(to, "absences", stats->absences);
     truth(to, "absent", stats->absent != 0);
     truth(to, "realtime", stats->realtime != 0);
+    truth(to, "io_realtime", stats->io_realtime != 0);
     truth(to, "memory_locked", stats->memory_locked != 0);
     number(to, "tick_us_p50", 1e-3 * stats->tick_ns.p50);
     number(to, "tick_us_p99", 1e-3 * stats->tick_ns.p99);

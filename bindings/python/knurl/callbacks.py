@@ -15,11 +15,14 @@ _thread = threading.local()
 
 class Sample(NamedTuple):
     """A device's reading: position in m, device axes; buttons, bit 0 is the first; orientation of the stylus, a
-    quaternion x, y, z, w, zeros if it is not measured."""
+    quaternion x, y, z, w, zeros if it is not measured; angle of its gripper, rad, 0 if it is closed or there is none;
+    angles of its joints, rad, as many as its maker tells."""
 
     position: Tuple[float, float, float]
     buttons: int = 0
     orientation: Tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
+    grip: float = 0.0
+    joints: Tuple[float, ...] = ()
 
 
 class Calls:
@@ -72,8 +75,10 @@ def _three(found: ArrayLike, to: Any, name: str) -> None:
 @ffi.callback("void(uint64_t, const knurl_device_sample *, double *, void *)")
 def force_callback(tick: int, sample: Any, force: Any, user: Any) -> None:
     calls, (x, y, z), turned = ffi.from_handle(user), sample.position, sample.orientation
+    joints = tuple(sample.joints[0 : sample.joint_count])
     force[0] = force[1] = force[2] = 0.0
-    _call(calls, lambda: _three(calls.force(tick, Sample((x, y, z), sample.buttons, (*turned,))), force, "force")) # type: ignore
+    _call(calls, lambda: _three(calls.force(tick, Sample((x, y, z), sample.buttons, (*turned,), sample.grip, joints)), # type: ignore
+                                force, "force"))
 
 
 @ffi.callback("void(const knurl_tick_output *, void *)")
@@ -114,7 +119,8 @@ def _take_sample(device: Functions, to: Any) -> int:
         return int(lib.KNURL_ERROR_DEVICE_NOT_READY)
     sample = found if isinstance(found, Sample) else Sample(found)
     _three(sample.position, to.position, "position")
-    to.buttons, to.orientation = sample.buttons, list(sample.orientation)
+    to.buttons, to.orientation, to.grip = sample.buttons, list(sample.orientation), sample.grip
+    to.joint_count, to.joints = len(sample.joints), list(sample.joints)
     return 0
 
 

@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "8b9739cdd527f8ab"
+#define KNURL_UNITY_INTERFACE "c0013added8222e3"
 
 /** The mirrored structs, as C# lays them out: STRUCT(type, bytes), FIELD(type, field, name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
@@ -189,7 +189,7 @@
     FIELD(knurl_audio_desc, latency_s, "latency_s", 24, 8) \
     FIELD(knurl_audio_desc, voice, "voice", 32, 4) \
     FIELD(knurl_audio_desc, reserved, "reserved", 36, 4) \
-    STRUCT(knurl_device_info, 200) \
+    STRUCT(knurl_device_info, 216) \
     FIELD(knurl_device_info, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_device_info, reserved, "reserved", 4, 4) \
     FIELD(knurl_device_info, name, "name", 8, 64) \
@@ -205,11 +205,20 @@
     FIELD(knurl_device_info, coulomb, "coulomb", 176, 8) \
     FIELD(knurl_device_info, max_stiffness, "max_stiffness", 184, 8) \
     FIELD(knurl_device_info, native_rate, "native_rate", 192, 8) \
-    STRUCT(knurl_device_sample, 96) \
+    FIELD(knurl_device_info, max_torque, "max_torque", 200, 8) \
+    FIELD(knurl_device_info, max_grip, "max_grip", 208, 8) \
+    STRUCT(knurl_device_sample, 168) \
     FIELD(knurl_device_sample, position, "position", 0, 24) \
     FIELD(knurl_device_sample, orientation, "orientation", 24, 32) \
-    FIELD(knurl_device_sample, buttons, "buttons", 56, 4) \
-    FIELD(knurl_device_sample, reserved, "reserved", 60, 36) \
+    FIELD(knurl_device_sample, grip, "grip", 56, 8) \
+    FIELD(knurl_device_sample, joints, "joints", 64, 64) \
+    FIELD(knurl_device_sample, buttons, "buttons", 128, 4) \
+    FIELD(knurl_device_sample, joint_count, "joint_count", 132, 4) \
+    FIELD(knurl_device_sample, reserved, "reserved", 136, 32) \
+    STRUCT(knurl_device_torque, 64) \
+    FIELD(knurl_device_torque, torque, "torque", 0, 24) \
+    FIELD(knurl_device_torque, grip, "grip", 24, 8) \
+    FIELD(knurl_device_torque, reserved, "reserved", 32, 32) \
     STRUCT(knurl_device_listing, 1440) \
     FIELD(knurl_device_listing, uri, "uri", 0, 256) \
     FIELD(knurl_device_listing, name, "name", 256, 128) \
@@ -220,7 +229,7 @@
     FIELD(knurl_device_event, value, "value", 8, 8) \
     FIELD(knurl_device_event, code, "code", 16, 4) \
     FIELD(knurl_device_event, reserved, "reserved", 20, 4) \
-    STRUCT(knurl_device_status, 88) \
+    STRUCT(knurl_device_status, 104) \
     FIELD(knurl_device_status, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_device_status, lost, "lost", 4, 4) \
     FIELD(knurl_device_status, halted, "halted", 8, 4) \
@@ -231,6 +240,8 @@
     FIELD(knurl_device_status, exchange_ns_p50, "exchange_ns_p50", 40, 8) \
     FIELD(knurl_device_status, exchange_ns_p99, "exchange_ns_p99", 48, 8) \
     FIELD(knurl_device_status, orientation, "orientation", 56, 32) \
+    FIELD(knurl_device_status, grip, "grip", 88, 8) \
+    FIELD(knurl_device_status, battery, "battery", 96, 8) \
     STRUCT(knurl_device_functions, 72) \
     FIELD(knurl_device_functions, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_device_functions, blocking, "blocking", 4, 4) \
@@ -301,7 +312,7 @@
     FIELD(knurl_clock, now_ns, "now_ns", 0, 8) \
     FIELD(knurl_clock, sleep_until_ns, "sleep_until_ns", 8, 8) \
     FIELD(knurl_clock, user, "user", 16, 8) \
-    STRUCT(knurl_loop_desc, 104) \
+    STRUCT(knurl_loop_desc, 112) \
     FIELD(knurl_loop_desc, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_loop_desc, hip, "hip", 4, 4) \
     FIELD(knurl_loop_desc, device, "device", 8, 8) \
@@ -317,11 +328,12 @@
     FIELD(knurl_loop_desc, protections, "protections", 88, 4) \
     FIELD(knurl_loop_desc, reconnect, "reconnect", 92, 4) \
     FIELD(knurl_loop_desc, heartbeat_s, "heartbeat_s", 96, 8) \
+    FIELD(knurl_loop_desc, torque_callback, "torque_callback", 104, 8) \
     STRUCT(knurl_percentiles, 24) \
     FIELD(knurl_percentiles, p50, "p50", 0, 8) \
     FIELD(knurl_percentiles, p99, "p99", 8, 8) \
     FIELD(knurl_percentiles, max, "max", 16, 8) \
-    STRUCT(knurl_loop_stats, 120) \
+    STRUCT(knurl_loop_stats, 128) \
     FIELD(knurl_loop_stats, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_loop_stats, state, "state", 4, 4) \
     FIELD(knurl_loop_stats, ticks, "ticks", 8, 8) \
@@ -336,42 +348,44 @@
     FIELD(knurl_loop_stats, absences, "absences", 104, 8) \
     FIELD(knurl_loop_stats, absent, "absent", 112, 4) \
     FIELD(knurl_loop_stats, paused, "paused", 116, 4) \
-    STRUCT(knurl_surface_info, 656) \
+    FIELD(knurl_loop_stats, io_realtime, "io_realtime", 120, 4) \
+    FIELD(knurl_loop_stats, reserved, "reserved", 124, 4) \
+    STRUCT(knurl_surface_info, 408) \
     FIELD(knurl_surface_info, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_surface_info, triangle_count, "triangle_count", 4, 4) \
     FIELD(knurl_surface_info, dropped_triangles, "dropped_triangles", 8, 4) \
     FIELD(knurl_surface_info, double_sided, "double_sided", 12, 4) \
-    FIELD(knurl_surface_info, name, "name", 16, 256) \
-    FIELD(knurl_surface_info, shape, "shape", 272, 8) \
-    FIELD(knurl_surface_info, model, "model", 280, 8) \
-    FIELD(knurl_surface_info, bytes, "bytes", 288, 8) \
-    FIELD(knurl_surface_info, bounds_min, "bounds_min", 296, 24) \
-    FIELD(knurl_surface_info, bounds_max, "bounds_max", 320, 24) \
-    FIELD(knurl_surface_info, anchor, "anchor", 344, 24) \
-    FIELD(knurl_surface_info, anchor_x, "anchor_x", 368, 24) \
-    FIELD(knurl_surface_info, anchor_normal, "anchor_normal", 392, 24) \
-    FIELD(knurl_surface_info, anchor_reach, "anchor_reach", 416, 32) \
-    FIELD(knurl_surface_info, stretch, "stretch", 448, 24) \
-    FIELD(knurl_surface_info, why, "why", 472, 8) \
-    FIELD(knurl_surface_info, model_error, "model_error", 480, 8) \
-    FIELD(knurl_surface_info, reversed_twins, "reversed_twins", 488, 4) \
-    FIELD(knurl_surface_info, turned_triangles, "turned_triangles", 492, 4) \
-    FIELD(knurl_surface_info, axis, "axis", 496, 24) \
-    FIELD(knurl_surface_info, stretch_y, "stretch_y", 520, 24) \
-    FIELD(knurl_surface_info, seam, "seam", 544, 8) \
-    FIELD(knurl_surface_info, touching_pairs, "touching_pairs", 552, 8) \
-    FIELD(knurl_surface_info, curved_triangles, "curved_triangles", 560, 4) \
-    FIELD(knurl_surface_info, bad_normals, "bad_normals", 564, 4) \
-    FIELD(knurl_surface_info, bulge, "bulge", 568, 8) \
-    FIELD(knurl_surface_info, coordinates, "coordinates", 576, 8) \
-    FIELD(knurl_surface_info, uneven, "uneven", 584, 8) \
-    FIELD(knurl_surface_info, projection_seams, "projection_seams", 592, 4) \
-    FIELD(knurl_surface_info, smooth, "smooth", 596, 4) \
-    FIELD(knurl_surface_info, edges, "edges", 600, 4) \
-    FIELD(knurl_surface_info, hard_edges, "hard_edges", 604, 4) \
-    FIELD(knurl_surface_info, facet_angle, "facet_angle", 608, 16) \
-    FIELD(knurl_surface_info, felt_angle, "felt_angle", 624, 16) \
-    FIELD(knurl_surface_info, uv_scale, "uv_scale", 640, 16) \
+    FIELD(knurl_surface_info, name, "name", 16, 8) \
+    FIELD(knurl_surface_info, shape, "shape", 24, 8) \
+    FIELD(knurl_surface_info, model, "model", 32, 8) \
+    FIELD(knurl_surface_info, bytes, "bytes", 40, 8) \
+    FIELD(knurl_surface_info, bounds_min, "bounds_min", 48, 24) \
+    FIELD(knurl_surface_info, bounds_max, "bounds_max", 72, 24) \
+    FIELD(knurl_surface_info, anchor, "anchor", 96, 24) \
+    FIELD(knurl_surface_info, anchor_x, "anchor_x", 120, 24) \
+    FIELD(knurl_surface_info, anchor_normal, "anchor_normal", 144, 24) \
+    FIELD(knurl_surface_info, anchor_reach, "anchor_reach", 168, 32) \
+    FIELD(knurl_surface_info, stretch, "stretch", 200, 24) \
+    FIELD(knurl_surface_info, why, "why", 224, 8) \
+    FIELD(knurl_surface_info, model_error, "model_error", 232, 8) \
+    FIELD(knurl_surface_info, reversed_twins, "reversed_twins", 240, 4) \
+    FIELD(knurl_surface_info, turned_triangles, "turned_triangles", 244, 4) \
+    FIELD(knurl_surface_info, axis, "axis", 248, 24) \
+    FIELD(knurl_surface_info, stretch_y, "stretch_y", 272, 24) \
+    FIELD(knurl_surface_info, seam, "seam", 296, 8) \
+    FIELD(knurl_surface_info, touching_pairs, "touching_pairs", 304, 8) \
+    FIELD(knurl_surface_info, curved_triangles, "curved_triangles", 312, 4) \
+    FIELD(knurl_surface_info, bad_normals, "bad_normals", 316, 4) \
+    FIELD(knurl_surface_info, bulge, "bulge", 320, 8) \
+    FIELD(knurl_surface_info, coordinates, "coordinates", 328, 8) \
+    FIELD(knurl_surface_info, uneven, "uneven", 336, 8) \
+    FIELD(knurl_surface_info, projection_seams, "projection_seams", 344, 4) \
+    FIELD(knurl_surface_info, smooth, "smooth", 348, 4) \
+    FIELD(knurl_surface_info, edges, "edges", 352, 4) \
+    FIELD(knurl_surface_info, hard_edges, "hard_edges", 356, 4) \
+    FIELD(knurl_surface_info, facet_angle, "facet_angle", 360, 16) \
+    FIELD(knurl_surface_info, felt_angle, "felt_angle", 376, 16) \
+    FIELD(knurl_surface_info, uv_scale, "uv_scale", 392, 16) \
     STRUCT(knurl_surface_point, 72) \
     FIELD(knurl_surface_point, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_surface_point, hint, "hint", 4, 4) \

@@ -31,6 +31,8 @@ typedef struct knurl_device_info {
     double coulomb;          /**< the device's own dry friction, 0 to 10 N */
     double max_stiffness;    /**< the stiffest wall in its maker's specification, 1 to 1e9 N/m; or INFINITY */
     double native_rate;      /**< its own rate of position reports, 1 to 1e5 Hz; 0: a new position at each read */
+    double max_torque;       /**< 0.0001 to 100 N m that it can play for long; 0: it plays no torques */
+    double max_grip;         /**< 0.01 to 1000 N that its gripper can play for long; 0: none */
 } knurl_device_info;
 
 /** One reading. Device frame: x right, y up, z towards the user. */
@@ -38,9 +40,19 @@ typedef struct knurl_device_sample {
     double position[3];    /**< m */
     double orientation[4]; /**< of the stylus: a unit quaternion x, y, z, w, from its axes to the device's; 0, 0, 0, 0
                               if the device does not measure it. For drawing only: contact is that of a point */
+    double grip;           /**< angle of its gripper, rad, 0: closed; 0 without a gripper */
+    double joints[8];      /**< angles of its joints, rad, in its maker's order and directions */
     uint32_t buttons;      /**< bit 0: first button */
-    uint32_t reserved[9];  /**< 0 */
+    uint32_t joint_count;  /**< angles in `joints`, 0 to 8 */
+    uint32_t reserved[8];  /**< 0 */
 } knurl_device_sample;
+
+/** A torque and a gripper's force, for devices that play them (knurl_device_info.max_torque, max_grip). */
+typedef struct knurl_device_torque {
+    double torque[3];   /**< N m about the device's axes, right-handed */
+    double grip;        /**< N; positive opens the gripper */
+    double reserved[4]; /**< 0 */
+} knurl_device_torque;
 
 /** A connected device, or a kind of device without a connected one. */
 typedef struct knurl_device_listing {
@@ -84,7 +96,8 @@ typedef struct knurl_device_listing {
     X(KNURL_FAULT_FORCE_OFF, 17, "force_off",                                                                          \
       "the device switched its forces off; no force is sent until they are on again", "")                              \
     X(KNURL_FAULT_RESUMED, 32, "resumed", "no fault: the force ramps up again", "")                                    \
-    X(KNURL_FAULT_RECONNECTED, 33, "reconnected", "no fault: the device is connected again", "")
+    X(KNURL_FAULT_RECONNECTED, 33, "reconnected", "no fault: the device is connected again", "")                       \
+    X(KNURL_FAULT_BATTERY, 34, "battery", "no fault: the battery of its grip is almost empty", "(0 to 1)")
 
 enum {
 #define KNURL_FAULT_ENUMERATOR(code, number, name, text, unit) code = (number),
@@ -133,6 +146,8 @@ typedef struct knurl_device_status {
     double exchange_ns_p50; /**< median duration of an exchange on the I/O thread, within 3 % */
     double exchange_ns_p99; /**< the same, 99th percentile */
     double orientation[4];  /**< of the last reading, as knurl_device_sample.orientation */
+    double grip;            /**< the same, as knurl_device_sample.grip */
+    double battery;         /**< charge of its grip's battery, 0 to 1; 0: unknown, or it has none */
 } knurl_device_status;
 
 /** Fill in defaults; `size` is the caller's sizeof. [any thread] */
@@ -155,10 +170,12 @@ KNURL_API void knurl_device_status_init(knurl_device_status *status, uint32_t si
  * - serial, serial:PATH: WoodenHaptics with its makers' Teensy 4.0 firmware, on the first Teensy's serial port or on
  *   this one. ?geometry=PATH and ?home=1: as rawhid. Switch it on, or press its button, in its home pose.
  * - dhd, dhd:N: the first, or the Nth (from 0), of Force Dimension's devices. ?library=PATH: its maker's DHD library,
- *   tried before the environment variable KNURL_DHD_LIBRARY and the usual names.
+ *   tried before the environment variable KNURL_DHD_LIBRARY and the usual names. ?gravity=1 or 0 switches its gravity
+ *   compensation, which is left alone otherwise.
  * - inverse3, inverse3:ID: the first Haply Inverse3, Inverse3x or Minverse, or the one with this id, by its maker's
  *   service on this machine, whose filters may cut textures.
- *   ?port=N: the service's port, 1 to 65535; default 10001.
+ *   ?port=N: the service's port, 1 to 65535; default 10001. ?grip=ID: the handle's id, if there are several; by default
+ *   the first that tells its orientation. ?gravity=: as dhd.
  *
  * falcon, rawhid, serial and a caller's functions check their motors, because a motor that is wired or signed backwards
  * pushes with the hand. The first force above 0.25 N along each axis is limited to 1 N and sent as pulses of 12 ms

@@ -18,6 +18,13 @@ typedef struct knurl_loop knurl_loop;
 /** Computes the force instead of a scene. tick: counts from 0. force: to be written, N, device axes. [haptic thread] */
 typedef void (*knurl_force_callback)(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user);
 
+/** Computes a torque and a gripper's force, of which it gets zeros; called in each tick after the scene or the force
+ * callback. Whatever shortens the force to zero (a halt, a pause, the ramps, the gain, a lost position) applies to them
+ * in the same tick. Then the torque is shortened to max_torque and the gripper's force to max_grip; if one of the
+ * numbers is not finite, all are zero. [haptic thread] */
+typedef void (*knurl_torque_callback)(uint64_t tick, const knurl_device_sample *sample, knurl_device_torque *torque,
+                                      void *user);
+
 /** Called with every tick's output once its force is written, for recording. It must not allocate, lock or wait. The
  * forces in `output` are as sent: ramps included, zero while the device is halted. The ramp at the loop's end has no
  * ticks; see knurl_scene_get_tick() for its forces. [haptic thread] */
@@ -37,7 +44,7 @@ typedef struct knurl_loop_desc {
     knurl_scene *scene;   /**< committed, its HIP configured with the same update rate; or null */
     knurl_force_callback force_callback; /**< used if scene is null */
     knurl_tick_callback tick_callback;   /**< or null */
-    void *user;                          /**< passed to both callbacks */
+    void *user;                          /**< passed to all callbacks */
     double update_rate_hz;               /**< KNURL_UPDATE_RATE_MIN to _MAX; default 1000 */
     uint64_t tick_limit;                 /**< the loop ends after so many ticks; 0 (default): never */
     double ramp_s;                       /**< s from full force to zero, and back up; 0 to 1; default 0.02 */
@@ -51,6 +58,7 @@ typedef struct knurl_loop_desc {
     uint32_t reconnect;       /**< 1: search for a lost device four times a second; default 0: the loop ends */
     double heartbeat_s; /**< if knurl_loop_heartbeat() is not called for so many s, the force ramps down to zero until
                            the next call; 0 (default): no heartbeat is needed */
+    knurl_torque_callback torque_callback; /**< or null: no torque, no gripper's force */
 } knurl_loop_desc;
 
 /** Percentiles of a duration, ns. */
@@ -82,9 +90,11 @@ typedef struct knurl_loop_stats {
                             knurl_hip_counts) */
     double heat; /**< heat of the device's motors: 0 is cold, 1 as warm as continuous_force makes them in the long run;
                     above 1 only without KNURL_PROTECT_HEAT, or if the HIP has a larger continuous_force */
-    uint64_t absences; /**< cycles without a tick: the device was lost or had no valid position */
-    uint32_t absent;   /**< 1: the last cycle had no tick */
-    uint32_t paused;   /**< 1: paused */
+    uint64_t absences;    /**< cycles without a tick: the device was lost or had no valid position */
+    uint32_t absent;      /**< 1: the last cycle had no tick */
+    uint32_t paused;      /**< 1: paused */
+    uint32_t io_realtime; /**< 1: the device's I/O thread runs under SCHED_FIFO; 0 also without such a thread */
+    uint32_t reserved;    /**< 0 */
 } knurl_loop_stats;
 
 /** Fill in defaults; `size` is the caller's sizeof. [any thread] */

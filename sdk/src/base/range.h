@@ -15,6 +15,7 @@
 #define KNURL_RANGE_FORCE     0.01, 1000.0, "N"
 #define KNURL_RANGE_HIP_FORCE 0.01, 1e6, "N" /* the device's own limit applies too */
 #define KNURL_RANGE_HEAT_TIME 0.001, 1e6, "s"
+#define KNURL_RANGE_TORQUE    0.0001, 100.0, "N m"
 #define KNURL_RANGE_MASS      0.001, 10.0, "kg"
 #define KNURL_RANGE_VISCOUS   0.0, 1000.0, "N s/m"
 #define KNURL_RANGE_COULOMB   0.0, 10.0, "N"

@@ -141,8 +141,11 @@ knurl_result knurl_device_get_status(const knurl_device *device, knurl_device_st
     made.lost = knurl_load_acquire(&device->lost);
     made.halted = knurl_port_is_halted(device);
     made.buttons = knurl_load_relaxed(&device->buttons);
-    knurl_seqlock_read(&device->orientation.sequence, device->orientation.words, made.orientation,
-                       sizeof made.orientation);
+    double pose[5];
+    knurl_seqlock_read(&device->orientation.sequence, device->orientation.words, pose, sizeof pose);
+    memcpy(made.orientation, pose, sizeof made.orientation);
+    made.grip = pose[4];
+    made.battery = knurl_load_double(&device->battery);
     made.events = knurl_load_acquire(&device->events.head);
     if (device->link) {
         knurl_link_get_status(device->link, &made);
@@ -160,12 +163,17 @@ uint32_t knurl_device_next_event(knurl_device *device, knurl_device_event *event
     return knurl_events_next(&device->events, event);
 }
 
+uint32_t knurl_port_is_io_realtime(const knurl_device *device) {
+    return device->link && knurl_load_relaxed(&device->link->realtime);
+}
+
 /* Checks the properties and discards earlier positions. */
 static knurl_result begin_check(knurl_device *device) {
     knurl_device_info info;
     const knurl_result result = knurl_device_ask(device, &info);
     if (!result) {
         memset(&device->check, 0, sizeof device->check);
+        memset(device->torque, 0, sizeof device->torque);
         device->check.least_gap = info.native_rate > 0.0 ? fmax(LEAST_GAP, 2.0 / info.native_rate) : LEAST_GAP;
     }
     return result;
@@ -259,6 +267,23 @@ static void check_orientation(double q[4]) {
     }
 }
 
+/* Zeroes angles that are not numbers. */
+static void check_angles(knurl_device_sample *sample) {
+    const uint32_t room = sizeof sample->joints / sizeof *sample->joints;
+    sample->joint_count = sample->joint_count <= room ? sample->joint_count : 0;
+    sample->grip = knurl_is_finite(sample->grip) ? sample->grip : 0.0;
+    for (uint32_t i = 0; i < room; i++) {
+        sample->joints[i] = i < sample->joint_count && knurl_is_finite(sample->joints[i]) ? sample->joints[i] : 0.0;
+    }
+}
+
+static void publish_pose(knurl_device *device, const knurl_device_sample *sample) {
+    double pose[5];
+    memcpy(pose, sample->orientation, sizeof sample->orientation);
+    pose[4] = sample->grip;
+    knurl_seqlock_write(&device->orientation.sequence, device->orientation.words, pose, sizeof pose);
+}
+
 static void lose(knurl_device *device) {
     knurl_device_halt(device);
     if (!device->link) { /* an I/O thread has already reported it */
@@ -289,10 +314,10 @@ static knurl_result read_device(knurl_device *device, knurl_device_sample *sampl
             check_motors(device, found.position);
         }
         check_orientation(found.orientation);
+        check_angles(&found);
         *sample = found;
         knurl_store_relaxed(&device->buttons, found.buttons);
-        knurl_seqlock_write(&device->orientation.sequence, device->orientation.words, found.orientation,
-                            sizeof found.orientation);
+        publish_pose(device, &found);
         return KNURL_OK;
     }
     if (result == KNURL_ERROR_DEVICE_LOST) {
@@ -313,16 +338,31 @@ knurl_result knurl_device_read(knurl_device *device, knurl_device_sample *sample
     return result ? knurl_fail_static(result, knurl_result_string(result)) : KNURL_OK;
 }
 
+/* Shortens a vector to `most`; one that is shortened already stays as it is. */
+static void shorten(const double vector[3], double length, double most, double shortened[3]) {
+    vec3_scale(length > most * (1.0 + ROUNDING) ? most / length : 1.0, vector, shortened);
+}
+
+/* Takes the torque and the gripper's force for this write. */
+static void take_torque(knurl_device *device, double safe[KNURL_FORCES]) {
+    const double length = vec3_length(device->torque);
+    if (knurl_is_finite(length) && knurl_is_finite(device->torque[3])) {
+        shorten(device->torque, length, device->max_torque, safe + 3);
+        safe[6] = fmax(-device->max_grip, fmin(device->max_grip, device->torque[3]));
+    }
+}
+
 static knurl_result write_device(knurl_device *device, const double force[3]) {
     if (knurl_load_acquire(&device->lost)) {
         return KNURL_ERROR_DEVICE_LOST;
     }
-    double safe[3] = {0.0, 0.0, 0.0};
+    double safe[KNURL_FORCES] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
     const double length = vec3_length(force);
     if (knurl_is_finite(length) && !knurl_load_acquire(&device->halted)) {
-        const double most = device->max_force * (1.0 + ROUNDING);
-        vec3_scale(length > most ? device->max_force / length : 1.0, force, safe);
+        shorten(force, length, device->max_force, safe);
+        take_torque(device, safe);
     }
+    memset(device->torque, 0, sizeof device->torque);
     if (device->motor_check.is_on) {
         knurl_motor_check_shape(&device->motor_check, safe);
     }

@@ -10,6 +10,10 @@
 
 #include <stdlib.h>
 
+/* Numbers that a device plays: N along x, y, z, N m about them, N of a gripper. Drivers may read the first three alone.
+ */
+#define KNURL_FORCES 7
+
 /* A list of devices: counts all, stores as many as fit. */
 typedef struct knurl_listings {
     knurl_device_listing *to;
@@ -35,7 +39,7 @@ typedef struct knurl_driver {
     knurl_result (*start)(knurl_device *device, double update_rate_hz);
     /* KNURL_OK, KNURL_ERROR_DEVICE_LOST, or KNURL_ERROR_DEVICE_NOT_READY after the driver has reported the reason */
     knurl_result (*read)(knurl_device *device, knurl_device_sample *sample);
-    knurl_result (*write)(knurl_device *device, const double force[3]);
+    knurl_result (*write)(knurl_device *device, const double force[KNURL_FORCES]);
     /* Reopens a lost device; null if not supported. Never called during a read or write. */
     knurl_result (*reopen)(knurl_device *device);
     /* For a driver that owns the servo thread: calls `tick` from there once a period of the started rate until it
@@ -73,6 +77,9 @@ struct knurl_device {
     uint32_t handle; /* KNURL_HANDLE_DEVICE, first */
     const knurl_driver *driver;
     double max_force;        /* N */
+    double max_torque;       /* N m: 0 if its driver plays none */
+    double max_grip;         /* N: the same */
+    double torque[4];        /* N m, N: for the next write, which clears it; of the haptic thread */
     double max_speed;        /* m/s: faster than any hand; 0 if positions may jump (the fake device plays traces) */
     double period;           /* s, of the last start */
     struct knurl_link *link; /* I/O thread, see link.h; null if the driver transfers directly */
@@ -81,13 +88,14 @@ struct knurl_device {
     knurl_events events;
     knurl_motor_heat motors; /* read by the thread that starts a loop, written by the one that ends it */
     /* atomics */
-    uintptr_t thread; /* haptic thread of the last loop that started one */
-    uint32_t use;     /* KNURL_DEVICE_ bits */
-    uint32_t halted;  /* KNURL_HALTED bits */
-    uint32_t lost;    /* 1: only reopen() may call the driver */
-    uint32_t quiet;   /* 1: the last force sent was 0, and no transfer is in progress */
-    uint32_t buttons; /* of the last reading */
-    KNURL_SEQLOCK(double[4]) orientation;
+    uintptr_t thread;                     /* haptic thread of the last loop that started one */
+    uint32_t use;                         /* KNURL_DEVICE_ bits */
+    uint32_t halted;                      /* KNURL_HALTED bits */
+    uint32_t lost;                        /* 1: only reopen() may call the driver */
+    uint32_t quiet;                       /* 1: the last force sent was 0, and no transfer is in progress */
+    uint32_t buttons;                     /* of the last reading */
+    double battery;                       /* as knurl_device_status; of the last reading */
+    KNURL_SEQLOCK(double[5]) orientation; /* with the gripper's angle */
 };
 
 /* Sets up a driver's zeroed device. */
@@ -130,8 +138,11 @@ uint32_t knurl_device_must_be_zero(void);
 
 /* Called before and after each send, on the sending thread. The device is not quiet from before a force is sent until a
  * zero has been sent. If the device is halted or the process is ending, before_force zeroes the force. */
-void knurl_device_before_force(knurl_device *device, double force[3]);
-void knurl_device_after_force(knurl_device *device, const double force[3]);
+void knurl_device_before_force(knurl_device *device, double force[KNURL_FORCES]);
+void knurl_device_after_force(knurl_device *device, const double force[KNURL_FORCES]);
+
+/* 1 if all of its numbers are 0. */
+int knurl_force_is_zero(const double force[KNURL_FORCES]);
 
 /* Open devices, for exit.c. [game thread] */
 void knurl_device_register(knurl_device *device);

@@ -3,6 +3,9 @@
 #include "base/system.h"
 #include "device/driver.h"
 
+#include <math.h>
+#include <string.h>
+
 /* More devices than fit on a desk. The force of any further device is zeroed at the end too, but not waited for. */
 #define DEVICE_ROOM 16
 
@@ -20,25 +23,29 @@ uint32_t knurl_device_must_be_zero(void) {
     return __atomic_load_n(&reasons, __ATOMIC_SEQ_CST) != 0;
 }
 
-static int is_zero(const double force[3]) {
-    return force[0] == 0.0 && force[1] == 0.0 && force[2] == 0.0;
+int knurl_force_is_zero(const double force[KNURL_FORCES]) {
+    double sum = 0.0;
+    for (int i = 0; i < KNURL_FORCES; i++) {
+        sum += fabs(force[i]);
+    }
+    return sum == 0.0;
 }
 
 /* A sending thread clears `quiet`, then reads `reasons` and `halted`; a thread that ends the process or closes the
  * device sets one of these, then reads `quiet`. So at least one of the two threads sees the other's store. */
-void knurl_device_before_force(knurl_device *device, double force[3]) {
-    if (!is_zero(force)) {
+void knurl_device_before_force(knurl_device *device, double force[KNURL_FORCES]) {
+    if (!knurl_force_is_zero(force)) {
         if (knurl_load_relaxed(&device->quiet)) { /* written by this thread only */
             __atomic_store_n(&device->quiet, 0u, __ATOMIC_SEQ_CST);
         }
         if (knurl_device_must_be_zero() || __atomic_load_n(&device->halted, __ATOMIC_SEQ_CST)) {
-            force[0] = force[1] = force[2] = 0.0;
+            memset(force, 0, KNURL_FORCES * sizeof *force);
         }
     }
 }
 
-void knurl_device_after_force(knurl_device *device, const double force[3]) {
-    if (is_zero(force)) {
+void knurl_device_after_force(knurl_device *device, const double force[KNURL_FORCES]) {
+    if (knurl_force_is_zero(force)) {
         knurl_store_release(&device->quiet, 1u);
     }
 }

@@ -31,6 +31,8 @@ static const knurl_field fields[] = {
     FIELD(coulomb, KNURL_RANGE_COULOMB, 0),
     FIELD(max_stiffness, KNURL_RANGE_STIFFNESS, KNURL_OR_INFINITY),
     FIELD(native_rate, KNURL_RANGE_NATIVE_RATE, KNURL_OR_ZERO),
+    FIELD(max_torque, KNURL_RANGE_TORQUE, KNURL_OR_ZERO),
+    FIELD(max_grip, KNURL_RANGE_FORCE, KNURL_OR_ZERO),
 };
 
 void knurl_device_info_init(knurl_device_info *info, uint32_t size) {

@@ -3,7 +3,6 @@
 #include "device/link.h"
 
 #include "base/atomic.h"
-#include "base/vec3.h"
 
 #include <string.h>
 
@@ -13,21 +12,22 @@ static int64_t patience_ns(void) {
     return (int64_t)(KNURL_LINK_PATIENCE * 1e9);
 }
 
+static const double zeros[KNURL_FORCES];
+
 /* The newest force; zero if the device is halted or the force is too old. */
-static void choose_force(knurl_link *link, int64_t now, double force[3]) {
-    static const double none[3] = {0.0, 0.0, 0.0};
+static void choose_force(knurl_link *link, int64_t now, double force[KNURL_FORCES]) {
     knurl_device *device = link->device;
     (void)knurl_mailbox_take(&link->orders);
     const double *newest = link->forces[link->orders.front].force;
     const int64_t age = now - link->forces[link->orders.front].time_ns;
-    const int is_late = vec3_dot(newest, newest) > 0.0 && age > patience_ns();
+    const int is_late = !knurl_force_is_zero(newest) && age > patience_ns();
     if (is_late && !link->is_late && !knurl_load_acquire(&device->halted)) {
         knurl_device_halt(device); /* so that later forces ramp up */
         knurl_events_report(&device->events, KNURL_FAULT_LATE, 1e-9 * (double)age);
     }
     link->is_late = (uint32_t)is_late;
     const int is_off = knurl_load_relaxed(&link->is_off) || knurl_load_acquire(&device->halted);
-    vec3_copy(is_late || is_off ? none : newest, force);
+    memcpy(force, is_late || is_off ? zeros : newest, sizeof zeros);
     knurl_device_before_force(device, force);
 }
 
@@ -81,7 +81,7 @@ static void tell_guard(knurl_link *link, int64_t now) {
 
 /* One exchange. Returns 0 if the device is lost. */
 static int run_cycle(knurl_link *link) {
-    double force[3];
+    double force[KNURL_FORCES];
     knurl_device_sample sample;
     memset(&sample, 0, sizeof sample);
     const int64_t before = knurl_system_now_ns();
@@ -102,12 +102,11 @@ static int run_cycle(knurl_link *link) {
 }
 
 static void io_thread(void *argument) {
-    static const double none[3] = {0.0, 0.0, 0.0};
     knurl_link *link = argument;
     knurl_device_sample ignored;
     const int64_t period = (int64_t)(1e9 / link->native_rate);
     int64_t next = knurl_system_now_ns();
-    (void)knurl_system_make_realtime();
+    knurl_store_relaxed(&link->realtime, (uint32_t)knurl_system_make_realtime());
     link->heard_at = next;
     while (!knurl_load_acquire(&link->stop)) {
         if (!run_cycle(link)) {
@@ -118,8 +117,8 @@ static void io_thread(void *argument) {
         next = next + period > now ? next + period : now; /* if transfers are slow, they set the rate */
         knurl_system_sleep_until_ns(next);
     }
-    (void)link->exchange(link->device, none, &ignored); /* twice: the first may be answered for an earlier one */
-    (void)link->exchange(link->device, none, &ignored);
+    (void)link->exchange(link->device, zeros, &ignored); /* twice: the first may be answered for an earlier one */
+    (void)link->exchange(link->device, zeros, &ignored);
     knurl_store_release(&link->device->quiet, 1u);
 }
 
@@ -218,11 +217,11 @@ knurl_result knurl_link_read(knurl_link *link, knurl_device_sample *sample) {
     return KNURL_OK;
 }
 
-knurl_result knurl_link_write(knurl_link *link, const double force[3]) {
+knurl_result knurl_link_write(knurl_link *link, const double force[KNURL_FORCES]) {
     if (knurl_load_acquire(&link->lost)) {
         return KNURL_ERROR_DEVICE_LOST;
     }
-    vec3_copy(force, link->forces[link->orders.back].force);
+    memcpy(link->forces[link->orders.back].force, force, sizeof zeros);
     link->forces[link->orders.back].time_ns = knurl_system_now_ns();
     knurl_mailbox_post(&link->orders);
     return KNURL_OK;

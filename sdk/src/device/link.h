@@ -20,8 +20,8 @@ enum {
     KNURL_LINK_LOST     /* device lost */
 };
 
-/* Sends a force (N, device axes, finite, at most max_force) and waits up to 5 ms for a position. KNURL_LINK_. */
-typedef int (*knurl_link_exchange)(knurl_device *device, const double force[3], knurl_device_sample *sample);
+/* Sends a force (device axes, finite, within the device's limits) and waits up to 5 ms for a position. KNURL_LINK_. */
+typedef int (*knurl_link_exchange)(knurl_device *device, const double force[KNURL_FORCES], knurl_device_sample *sample);
 
 /* s: an older force is not sent again, and silence this long is a fault: ten exchanges at 1 kHz. */
 #define KNURL_LINK_PATIENCE 0.01
@@ -46,7 +46,7 @@ typedef struct knurl_link {
     /* from the haptic thread */
     knurl_mailbox orders;
     struct {
-        double force[3];
+        double force[KNURL_FORCES];
         int64_t time_ns;
     } forces[3];
     /* of the I/O thread */
@@ -61,6 +61,7 @@ typedef struct knurl_link {
     uint32_t is_off;    /* the last exchange ended with KNURL_LINK_OFF */
     uint32_t stop;
     uint32_t lost;
+    uint32_t realtime;  /* 1: the thread is under the real-time scheduler */
     uint64_t cycles;    /* of the I/O thread */
     uint64_t exchanges; /* with a position */
     uint64_t bad_bytes;
@@ -88,7 +89,7 @@ int knurl_link_take_trouble(knurl_link *link, int32_t trouble, int32_t cause);
 /* The driver functions of a device with a link. */
 void knurl_link_start(knurl_link *link, double update_rate_hz);
 knurl_result knurl_link_read(knurl_link *link, knurl_device_sample *sample);
-knurl_result knurl_link_write(knurl_link *link, const double force[3]);
+knurl_result knurl_link_write(knurl_link *link, const double force[KNURL_FORCES]);
 void knurl_link_get_status(const knurl_link *link, knurl_device_status *status);
 
 #endif

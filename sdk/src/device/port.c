@@ -3,6 +3,7 @@
 #include "device/driver.h"
 
 #include "base/atomic.h"
+#include "base/vec3.h"
 
 void knurl_device_halt(knurl_device *device) {
     /* The fake device's motors check the flag directly; an I/O thread writes zero within its next exchange. */
@@ -57,6 +58,11 @@ void knurl_port_add_gap(knurl_device *device, double seconds) {
 
 int knurl_port_may_hold_force(const knurl_device *device) {
     return device->link || !knurl_load_acquire(&device->quiet);
+}
+
+void knurl_port_set_torque(knurl_device *device, double gain, const knurl_device_torque *torque) {
+    vec3_scale(gain, torque->torque, device->torque);
+    device->torque[3] = gain * torque->grip;
 }
 
 const char *knurl_port_uri(const knurl_device *device) {

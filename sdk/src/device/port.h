@@ -67,6 +67,12 @@ void knurl_port_add_gap(knurl_device *device, double seconds);
 /* 1 if the device may still play the last force, so that the loop must write a zero at its end. */
 int knurl_port_may_hold_force(const knurl_device *device);
 
+/* Sets the torque and the gripper's force, times `gain`, of the next knurl_device_write(). [haptic thread] */
+void knurl_port_set_torque(knurl_device *device, double gain, const knurl_device_torque *torque);
+
+/* 1 if it has an I/O thread under the real-time scheduler. [any thread] */
+uint32_t knurl_port_is_io_realtime(const knurl_device *device);
+
 /* The driver's name in URIs, for messages; static. */
 const char *knurl_port_uri(const knurl_device *device);
 

@@ -58,6 +58,7 @@ static int ramp_down(knurl_loop *loop) {
     const knurl_result result = knurl_device_read(loop->shared.desc.device, &sample);
     gain = result || knurl_port_is_halted(loop->shared.desc.device) ? 0.0 : gain;
     tell_force(loop, gain, force);
+    knurl_port_set_torque(loop->shared.desc.device, gain * loop->haptic.torque_gain, &loop->haptic.torque);
     if (result || knurl_device_write(loop->shared.desc.device, force)) {
         loop->haptic.ramp_step = steps; /* the device does not answer: skip the ramp */
     }

@@ -350,5 +350,6 @@ knurl_result knurl_loop_get_stats(const knurl_loop *loop, knurl_loop_stats *stat
     made.absences = knurl_load_relaxed(&loop->shared.absences);
     made.absent = knurl_load_relaxed(&loop->shared.absent);
     made.paused = knurl_load_relaxed(&loop->shared.paused);
+    made.io_realtime = knurl_port_is_io_realtime(loop->shared.desc.device);
     return knurl_desc_return("knurl_loop_stats", &made, sizeof made, stats);
 }

@@ -58,14 +58,16 @@ typedef struct knurl_loop_added {
 /* Used by the haptic thread only, and by others while it cannot run. */
 typedef struct knurl_loop_haptic {
     knurl_pace pace;
-    double force[3];        /* last force sent, device axes, N */
-    double scene_force[3];  /* the same in scene axes; 0 without a scene */
-    double gain;            /* 0..1, for the next force; ramps up after a halt */
-    knurl_last_stage *last; /* final limits and motor heat: the HIP's, or `own` */
-    knurl_last_stage own;   /* for a force callback */
-    double per_force;       /* 1 / continuous_force^2, 1/N^2 */
-    int64_t cycle_at;       /* ns: the last cycle on a thread; 0 before the first */
-    uint64_t ramp_step;     /* steps done of the ramp at the end */
+    double force[3];            /* last force sent, device axes, N */
+    double scene_force[3];      /* the same in scene axes; 0 without a scene */
+    knurl_device_torque torque; /* of the last tick, before its gain; 0 without a callback */
+    double torque_gain;         /* 0 to 1: its gain */
+    double gain;                /* 0..1, for the next force; ramps up after a halt */
+    knurl_last_stage *last;     /* final limits and motor heat: the HIP's, or `own` */
+    knurl_last_stage own;       /* for a force callback */
+    double per_force;           /* 1 / continuous_force^2, 1/N^2 */
+    int64_t cycle_at;           /* ns: the last cycle on a thread; 0 before the first */
+    uint64_t ramp_step;         /* steps done of the ramp at the end */
     int was_overrun;
     int was_halted;    /* 1: the device was halted when the last force was computed */
     int is_lost;       /* 1: lost, and not to be reopened */

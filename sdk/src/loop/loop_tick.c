@@ -70,8 +70,10 @@ static void call_back(knurl_loop *loop, const knurl_device_sample *sample, doubl
     memset(loop->haptic.force, 0, sizeof loop->haptic.force);
     loop->shared.desc.force_callback(loop->shared.ticks, sample, loop->haptic.force, loop->shared.desc.user);
     const double gain = game_gain * next_gain(loop, paused); /* a halt may have come meanwhile */
+    loop->haptic.torque_gain = gain;
     const double length = knurl_last_stage_limit(loop->haptic.last, gain, 0.0, loop->haptic.force, &flags);
     if (!knurl_is_finite(length)) {
+        loop->haptic.torque_gain = 0.0;
         memset(loop->haptic.force, 0, sizeof loop->haptic.force);
         knurl_last_stage_note(loop->haptic.last, loop->haptic.force);
     } else if (flags & KNURL_TICK_HEAT) {
@@ -95,11 +97,19 @@ static void make_force(knurl_loop *loop, const knurl_device_sample *sample, knur
         input.paused = paused && gain == 0.0;
         const knurl_added_force *added = knurl_loop_adds(a) ? knurl_loop_next_added(a, &sum) : NULL;
         knurl_hip_tick(loop->shared.desc.scene, loop->shared.hip, &input, added, output);
+        loop->haptic.torque_gain = output->flags & KNURL_TICK_NOT_FINITE ? 0.0 : gain * game_gain;
         vec3_copy(output->device_force, loop->haptic.force);
         vec3_copy(output->force, loop->haptic.scene_force);
     } else {
         call_back(loop, sample, game_gain, paused);
     }
+}
+
+/* Hands the torque and the gripper's force to the device, for the write that follows. */
+static void make_torque(knurl_loop *loop, const knurl_device_sample *sample) {
+    memset(&loop->haptic.torque, 0, sizeof loop->haptic.torque);
+    loop->shared.desc.torque_callback(loop->shared.ticks, sample, &loop->haptic.torque, loop->shared.desc.user);
+    knurl_port_set_torque(loop->shared.desc.device, loop->haptic.torque_gain, &loop->haptic.torque);
 }
 
 /* Runs a cycle without a position: the force is 0, and the next tick counts as the first. Returns 0 if the loop must
@@ -111,6 +121,7 @@ static int run_without_position(knurl_loop *loop, knurl_result why) {
     knurl_store_relaxed(&loop->shared.absent, 1u);
     memset(loop->haptic.force, 0, sizeof loop->haptic.force);
     memset(loop->haptic.scene_force, 0, sizeof loop->haptic.scene_force);
+    memset(&loop->haptic.torque, 0, sizeof loop->haptic.torque);
     if (!loop->shared.desc.scene) {
         knurl_last_stage_note(loop->haptic.last, loop->haptic.force);
     } else {
@@ -143,6 +154,9 @@ int knurl_loop_tick(knurl_loop *loop) {
     memset(&output, 0, sizeof output);
     const int64_t before = loop->shared.clock.now_ns(loop->shared.clock.user);
     make_force(loop, &sample, &output);
+    if (loop->shared.desc.torque_callback) {
+        make_torque(loop, &sample);
+    }
     const int64_t after = loop->shared.clock.now_ns(loop->shared.clock.user);
     result = knurl_device_write(loop->shared.desc.device, loop->haptic.force);
     if (loop->haptic.was_halted && result == KNURL_OK) {

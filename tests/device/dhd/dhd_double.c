@@ -16,6 +16,7 @@ static int load(void) {
         !knurl_system_find_function(library, "stub_dhd_ask", &dhd_stub.ask) ||
         !knurl_system_find_function(library, "stub_dhd_set", &dhd_stub.set) ||
         !knurl_system_find_function(library, "stub_dhd_limp_since", &dhd_stub.limp_since) ||
+        !knurl_system_find_function(library, "stub_dhd_tell_torque", &dhd_stub.tell_torque) ||
         !knurl_system_find_function(library, "stub_dhd_opens", &dhd_stub.opens)) {
         (void)fprintf(stderr, "%s: %s\n", KNURL_TEST_STUB_DHD, library ? "not all functions are there" : why);
         return 0;

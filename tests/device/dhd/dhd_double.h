@@ -13,6 +13,7 @@ extern struct dhd_stub {
     stub_dhd_inject_function inject;
     stub_dhd_ask_function ask;
     stub_dhd_set_function set;
+    stub_dhd_torque_function tell_torque;
     stub_dhd_limp_function limp_since;
     stub_dhd_opens_function opens;
 } dhd_stub;

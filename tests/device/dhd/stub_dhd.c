@@ -27,6 +27,7 @@ EXPORT void stub_dhd_ask(double force[3], double others[3]);
 EXPORT int64_t stub_dhd_limp_since(void);
 EXPORT int stub_dhd_opens(void);
 EXPORT void stub_dhd_set(int setting, int value);
+EXPORT void stub_dhd_tell_torque(stub_dhd_torque *told);
 
 static struct {
     knurl_mutex mutex;
@@ -41,6 +42,7 @@ static struct {
     int cause;       /* of the last time that they were switched off */
     double force[3]; /* that its motors play */
     double others[3];
+    stub_dhd_torque torque;
     int64_t limp_since;
     knurl_plant plant;
     knurl_hand hand;
@@ -69,6 +71,7 @@ void stub_dhd_reset(const stub_dhd_time *time, int strokes) {
     stub.time = *time;
     stub.strokes = strokes;
     stub.is_ready = 1;
+    stub.torque.gravity = -1;
     knurl_stroke_desc_init(&stroke, sizeof stroke);
     (void)knurl_stroke_check(&stroke);
     knurl_hand_init(&stub.hand, &stroke, 0.0, 1);
@@ -128,8 +131,21 @@ static void play(double x, double y, double z) {
     stub.limp_since = !is_limp ? 0 : stub.limp_since ? stub.limp_since : stub.time.now_ns();
 }
 
+static void turn(const double torque[3], double grip) {
+    stub_dhd_torque *t = &stub.torque;
+    const double most = sqrt(torque[0] * torque[0] + torque[1] * torque[1] + torque[2] * torque[2]);
+    memcpy(t->torque, torque, sizeof t->torque);
+    t->grip = grip;
+    t->most_torque = most <= t->most_torque ? t->most_torque : most; /* NaN stays to be seen */
+    t->most_grip = fabs(grip) <= t->most_grip ? t->most_grip : fabs(grip);
+    const int is_limp = stub.force[0] == 0.0 && stub.force[1] == 0.0 && stub.force[2] == 0.0;
+    t->alone += is_limp && (most != 0.0 || grip != 0.0);
+}
+
 static void switch_off(int cause) {
+    static const double none[3];
     play(0.0, 0.0, 0.0);
+    turn(none, 0.0);
     stub.is_on = 0;
     stub.cause = cause;
 }
@@ -226,11 +242,46 @@ int DHD_CALL dhdSetForceAndTorqueAndGripperForce(double fx, double fy, double fz
     move();
     const int error = stub.settings[STUB_DHD_REFUSES] ? 7 : trouble(); /* 7: timeout */
     if (!error && stub.is_on) {
+        const double torque[3] = {tx, ty, tz};
         play(fx, fy, fz);
+        turn(torque, grip);
     }
     stub.others[0] = fabs(tx) + fabs(ty) + fabs(tz) + fabs(grip);
-    stub.others[1] += !stub.is_on && (fx != 0.0 || fy != 0.0 || fz != 0.0);
+    stub.others[1] += !stub.is_on && (fx != 0.0 || fy != 0.0 || fz != 0.0 || stub.others[0] != 0.0);
     return end(error) ? -1 : 2; /* a motor is at its limit */
+}
+
+int DHD_CALL dhdGetGripperAngleRad(double *angle, char id) {
+    (void)id;
+    *angle = stub.settings[STUB_DHD_LEFT] ? -0.2 : 0.2;
+    return 0;
+}
+
+/* As many as its type has; the others stay as they are. */
+int DHD_CALL dhdGetJointAngles(double *angles, char id) {
+    for (int i = 0; i < (dhdGetSystemType(id) == DHD_SIGMA7 ? 7 : 3); i++) {
+        angles[i] = 0.1 * (i + 1);
+    }
+    return 0;
+}
+
+unsigned char DHD_CALL dhdIsLeftHanded(char id) {
+    (void)id;
+    return stub.settings[STUB_DHD_LEFT] != 0;
+}
+
+int DHD_CALL dhdSetGravityCompensation(int on, char id) {
+    (void)id;
+    stub.torque.gravity = on;
+    return 0;
+}
+
+void stub_dhd_tell_torque(stub_dhd_torque *told) {
+    lock();
+    *told = stub.torque;
+    stub.torque.alone = 0;
+    stub.torque.most_grip = stub.torque.most_torque = 0.0;
+    (void)end(0);
 }
 
 int DHD_CALL dhdErrorGetLast(void) {

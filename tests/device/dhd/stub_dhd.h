@@ -20,9 +20,17 @@ typedef void (*stub_dhd_inject_function)(int fault); /**< DOUBLE_ */
  * forces commanded while it played no force; the largest increase of its force in one command (N). */
 typedef void (*stub_dhd_ask_function)(double force[3], double others[3]);
 
-/** Settings: its system type; the cause of the next DOUBLE_OFF (DHD_FORCEOFF_); 1: commands of a force time out. */
-enum { STUB_DHD_TYPE, STUB_DHD_CAUSE, STUB_DHD_REFUSES, STUB_DHD_LOOSE, STUB_DHD_SETTINGS };
+/** Settings: its system type; the cause of the next DOUBLE_OFF (DHD_FORCEOFF_); 1: commands of a force time out; 1: the
+ * hand lets go; 1: left-handed. */
+enum { STUB_DHD_TYPE, STUB_DHD_CAUSE, STUB_DHD_REFUSES, STUB_DHD_LOOSE, STUB_DHD_LEFT, STUB_DHD_SETTINGS };
 typedef void (*stub_dhd_set_function)(int setting, int value);
+/** The present torque (N m, the library's axes) and gripper's force; the largest since the last call: torque, gripper's
+ * force; commands since then with one of these but without a force; the gravity compensation (-1: never set). */
+typedef struct stub_dhd_torque {
+    double torque[3], grip, most_torque, most_grip;
+    int alone, gravity;
+} stub_dhd_torque;
+typedef void (*stub_dhd_torque_function)(stub_dhd_torque *told);
 typedef int64_t (*stub_dhd_limp_function)(void); /**< ns: start of its motors' zero force; 0: they have a force */
 typedef int (*stub_dhd_opens_function)(void);    /**< opened less closed */
 

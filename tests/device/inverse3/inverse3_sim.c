@@ -85,7 +85,7 @@ static const char state[] =
 static const char *const grips[] = {
     [INVERSE3_SIM_WIRELESS] =
         "\"wireless_verse_grip\":[{\"device_id\":\"61576\",\"state\":{" TURNED ",\"buttons\":{\"a\":%s,\"b\":false,"
-        "\"c\":false},\"hall\":1,\"battery_level\":0.9},\"status\":{\"awake\":true,\"connected\":true,\"ready\":true}}]",
+        "\"c\":false},\"hall\":1,\"battery_level\":%g},\"status\":{\"awake\":true,\"connected\":true,\"ready\":true}}]",
     [INVERSE3_SIM_WIRED] =
         "\"verse_grip\":[{\"device_id\":\"61576\",\"state\":{\"button\":%s,\"hall\":1," TURNED "},\"status\":{}}]",
     [INVERSE3_SIM_CUSTOM] =
@@ -139,7 +139,7 @@ static int say(inverse3_sim *sim, double seconds, int is_first, char text[INVERS
     length = snprintf(text, INVERSE3_SIM_ROOM, "{\"session_id\":7,\"inverse3\":[%s%s%s],", other,
                       other[0] && device[0] ? "," : "", device);
     length += snprintf(text + length, INVERSE3_SIM_ROOM - (size_t)length, grips[sim->grip],
-                       truth(seconds - sim->begun_at > 1.0));
+                       truth(seconds - sim->begun_at > 1.0), 1.0 - sim->discharged);
     return length + snprintf(text + length, INVERSE3_SIM_ROOM - (size_t)length, "}");
 }
 
@@ -160,6 +160,9 @@ int inverse3_sim_hear(inverse3_sim *sim, double seconds, const char *message, ch
     const char *configure = sim->is_old ? NULL : strstr(message, "\"configure\":{");
     if (configure && strstr(configure, "\"preset\":{\"preset\":\"arm_front_centered\"}")) {
         sim->is_centered = 1;
+    }
+    if (configure && strstr(configure, "\"gravity_compensation\":{\"enabled\":")) {
+        sim->gravity = strstr(configure, "\"enabled\":true") ? 1 : -1;
     }
     if (configure && strstr(configure, "\"damping\":{\"scalar\":0}")) {
         sim->damping = 0.0;

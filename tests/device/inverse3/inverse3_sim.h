@@ -30,6 +30,8 @@ typedef struct inverse3_sim {
     int is_not_ready;                      /* 1: it is not ready, for a reason of its own */
     int is_left_out;                       /* so many of its next states leave the device out */
     int grip;                              /* INVERSE3_SIM_: which handle there is */
+    double discharged;                     /* of a wireless grip's battery, 0 to 1 */
+    int gravity;                           /* its compensation: 1 on, -1 off, 0 never set */
     const char *type;                      /* of the device; null: inverse3 */
     double damping;                        /* N s/m: added by the session's filter */
     int has_second;                        /* 1: there is another device, 0A11, listed before this one */

@@ -81,6 +81,64 @@ TEST(every_kind_of_grip_gives_orientation_and_buttons) {
     }
 }
 
+/* Degrees, as the service has them: -30.927332, 53.878685, -6.642623. */
+TEST(the_joints_angles_are_told_in_radians) {
+    knurl_device_sample sample;
+    SCOPED_DEVICE *device = open_released("");
+    assert_int_equal(run(device, 20, none, &sample), KNURL_OK);
+    assert_int_equal(sample.joint_count, 3);
+    CHECK_CLOSE(sample.joints[0], -30.927332 / 57.29577951308232, 1e-12);
+    CHECK_CLOSE(sample.joints[2], -6.642623 / 57.29577951308232, 1e-12);
+}
+
+static knurl_device_status status_of(knurl_device *device) {
+    knurl_device_status status;
+    knurl_device_status_init(&status, sizeof status);
+    assert_int_equal(knurl_device_get_status(device, &status), KNURL_OK);
+    return status;
+}
+
+TEST(a_grips_battery_is_in_the_status_and_an_event_once_it_is_almost_empty) {
+    knurl_device_sample sample;
+    knurl_device_event event;
+    SCOPED_DEVICE *device = open_released("");
+    assert_int_equal(run(device, 20, none, &sample), KNURL_OK);
+    CHECK_CLOSE(status_of(device).battery, 1.0, 1e-15);
+    while (knurl_device_next_event(device, &event)) {}
+    for (int k = 0; k < 2; k++) {
+        inverse3_double_take()->discharged = k ? 0.875 : 0.75;
+        inverse3_double_give_back();
+        assert_int_equal(run(device, 20, none, &sample), KNURL_OK);
+        CHECK_CLOSE(status_of(device).battery, k ? 0.125 : 0.25, 1e-15);
+        assert_int_equal(knurl_device_next_event(device, &event), k);
+    }
+    assert_int_equal(event.code, KNURL_FAULT_BATTERY);
+    CHECK_CLOSE(event.value, 0.125, 1e-15);
+    assert_int_equal(run(device, 20, none, &sample), KNURL_OK);
+    assert_int_equal(knurl_device_next_event(device, &event), 0);
+}
+
+TEST(another_devices_grip_is_not_this_ones) {
+    knurl_device_sample sample;
+    SCOPED_DEVICE *device = open_released("?grip=1402");
+    assert_int_equal(run(device, 1100, none, &sample), KNURL_OK); /* 61576 is pressed from its first second on */
+    assert_int_equal(sample.buttons, 0);
+    CHECK_SAME(sample.orientation[3], 0.0L);
+    inverse3_double_take()->grip = INVERSE3_SIM_CUSTOM;
+    inverse3_double_give_back();
+    assert_int_equal(run(device, 20, none, &sample), KNURL_OK);
+    assert_int_equal(sample.buttons, 1);
+}
+
+TEST(gravity_compensation_is_switched_by_the_uri_and_otherwise_left_alone) {
+    static const char *const options[] = {"", "?gravity=1", "?gravity=0"};
+    static const int expected[] = {0, 1, -1};
+    for (size_t i = 0; i < COUNT_OF(options); i++) {
+        SCOPED_DEVICE *device = open_released(options[i]);
+        assert_int_equal(inverse3_double_sim()->gravity, expected[i]);
+    }
+}
+
 /* The maker's tutorial 06: a sphere of 0.1 m, of a Minverse 0.04 m. Nothing is published of a Minverse's force. */
 TEST(each_type_has_its_own_name_workspace_and_force_and_others_are_refused) {
     static const struct {

@@ -41,7 +41,8 @@ TEST(a_recorded_message_is_read) {
         "\"status\":{\"calibrated\":true,\"in_use\":false,\"power_supply\":true,\"ready\":true,\"started\":true}}],"
         "\"verse_grip\":[{\"device_id\":\"61576\",\"state\":{\"button\":true,\"hall\":1,\"orientation\":{"
         "\"w\":0.71655273,\"x\":0.19647217,\"y\":0.6290283,\"z\":-0.22833252}}}]}";
-    double q[4];
+    knurl_inverse3_grip grip;
+    const double *q = grip.orientation;
     assert_int_equal(read_text(recorded), 1);
     const knurl_inverse3_entry *entry = knurl_inverse3_find(&heard, "04EA");
     assert_non_null(entry);
@@ -49,8 +50,8 @@ TEST(a_recorded_message_is_read) {
     CHECK_SAME(entry->position[1], -0.03648221);
     CHECK_SAME(entry->position[2], -0.06100729);
     assert_int_equal(entry->has_preset, 0);
-    assert_int_equal(heard.wired.buttons, 1);
-    knurl_inverse3_orientation(&heard, q);
+    knurl_inverse3_find_grip(&heard, "", &grip);
+    assert_int_equal(grip.buttons, 1);
     CHECK_CLOSE(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3], 1.0, 1e-15);
     CHECK_CLOSE(q[2], -0.6290283, 1e-3); /* the service's y points away from the user, Knurl's z towards */
 }
@@ -165,16 +166,16 @@ TEST(a_message_with_a_custom_grip_is_read) {
         "\"status\":{\"awake\":true}}],\"custom_verse_grip\":[{\"device_id\":\"1402\",\"state\":{\"buttons\":{\"a\":true,"
         "\"b\":false,\"c\":true},\"hall\":15,\"orientation\":{\"x\":0.47711182,\"y\":0.431427,\"z\":-0.5709839,"
         "\"w\":0.50668335},\"extension_data\":[0,3,65]},\"status\":{\"connected\":true}}]}";
-    double q[4];
+    knurl_inverse3_grip grip;
+    const double *q = grip.orientation;
     assert_int_equal(read_text(recorded), 1);
     const knurl_inverse3_entry *entry = knurl_inverse3_find(&heard, "04BA");
     assert_non_null(entry);
     assert_string_equal(entry->type, "inverse3");
     CHECK_SAME(entry->force_gate, 0.3);
     assert_int_equal(entry->is_unpowered | entry->is_uncalibrated | entry->is_not_ready, 0);
-    assert_int_equal(heard.custom.buttons, 5);
-    assert_int_equal(heard.wireless.buttons, 0);
-    knurl_inverse3_orientation(&heard, q);
+    knurl_inverse3_find_grip(&heard, "", &grip);
+    assert_int_equal(grip.buttons, 5);
     CHECK_CLOSE(q[0], 0.47711182, 1e-3);
     CHECK_CLOSE(q[1], -0.5709839, 1e-3); /* the service's z points up, as Knurl's y */
     CHECK_CLOSE(q[3], 0.50668335, 1e-3);
@@ -216,26 +217,50 @@ TEST(more_devices_than_there_is_room_for_are_left_out) {
 /* A turn by 90 degrees about the vertical, and one about the right: Knurl's y and x. */
 TEST(orientations_are_turned_into_knurls_axes) {
     static const double half = 0.7071067811865476;
-    double q[4];
+    knurl_inverse3_grip grip;
     memset(&heard, 0, sizeof heard);
-    heard.wireless.orientation[2] = heard.wireless.orientation[3] = half;
-    knurl_inverse3_orientation(&heard, q);
-    CHECK_CLOSE(q[1], half, 1e-15);
-    CHECK_CLOSE(q[3], half, 1e-15);
-    memset(&heard, 0, sizeof heard);
-    heard.wired.orientation[0] = heard.wired.orientation[3] = half;
-    knurl_inverse3_orientation(&heard, q);
-    CHECK_CLOSE(q[0], half, 1e-15);
-    heard.wired.orientation[3] = 0.0; /* no unit quaternion */
-    knurl_inverse3_orientation(&heard, q);
-    CHECK_SAME(q[0], 0.0);
+    heard.grip_count = 2;
+    heard.grips[0].orientation[2] = heard.grips[0].orientation[3] = half;
+    knurl_inverse3_find_grip(&heard, "", &grip);
+    CHECK_CLOSE(grip.orientation[1], half, 1e-15);
+    CHECK_CLOSE(grip.orientation[3], half, 1e-15);
+    memset(heard.grips, 0, sizeof heard.grips);
+    heard.grips[1].orientation[0] = heard.grips[1].orientation[3] = half;
+    knurl_inverse3_find_grip(&heard, "", &grip);
+    CHECK_CLOSE(grip.orientation[0], half, 1e-15);
+    heard.grips[1].orientation[3] = 0.0; /* no unit quaternion */
+    knurl_inverse3_find_grip(&heard, "", &grip);
+    CHECK_SAME(grip.orientation[0], 0.0);
+}
+
+/* Two devices with a wireless grip each; the second one's is a customer's, which is listed twice. */
+TEST(a_grip_is_found_by_its_id_and_its_two_entries_are_one) {
+    static const char two[] =
+        "{\"wireless_verse_grip\":[{\"device_id\":\"61576\",\"state\":{\"orientation\":{\"w\":1,\"x\":0,\"y\":0,\"z\":0},"
+        "\"buttons\":{\"a\":true},\"battery_level\":0.5}},{\"device_id\":\"1402\",\"state\":{\"buttons\":{\"b\":true}}}],"
+        "\"custom_verse_grip\":[{\"device_id\":\"1402\",\"state\":{\"orientation\":{\"w\":0,\"x\":1,\"y\":0,\"z\":0},"
+        "\"buttons\":{\"c\":true},\"battery_level\":0.25}},{\"device_id\":\"9\",\"state\":{\"battery_level\":7}}]}";
+    knurl_inverse3_grip grip;
+    assert_int_equal(read_text(two), 1);
+    knurl_inverse3_find_grip(&heard, "", &grip);
+    assert_string_equal(grip.id, "61576");
+    assert_int_equal(grip.buttons, 1);
+    CHECK_SAME(grip.battery, 0.5L);
+    knurl_inverse3_find_grip(&heard, "1402", &grip);
+    assert_int_equal(grip.buttons, 6);
+    CHECK_SAME(grip.battery, 0.25L);
+    CHECK_SAME(grip.orientation[0], 1.0L);
+    knurl_inverse3_find_grip(&heard, "9", &grip);
+    CHECK_SAME(grip.battery, 0.0L); /* not a charge */
+    knurl_inverse3_find_grip(&heard, "absent", &grip);
+    assert_int_equal(grip.buttons, 0);
 }
 
 /* From https://docs.haply.co/inverseSDK/service/realtime/control-commands has it. */
 TEST(a_force_is_written_as_documented_in_the_services_axes) {
     static const double force[3] = {0.25, 1.5, -0.0000012};
     char command[KNURL_INVERSE3_COMMAND];
-    const size_t length = knurl_inverse3_command(command, "049D", force, 0);
+    const size_t length = knurl_inverse3_command(command, "049D", force, "");
     assert_int_equal(length, strlen(command));
     assert_string_equal(command,
                         "{\"inverse3\":[{\"device_id\":\"049D\",\"commands\":{\"set_cursor_force\":{\"vector\":"
@@ -245,7 +270,15 @@ TEST(a_force_is_written_as_documented_in_the_services_axes) {
 TEST(the_longest_command_fits) {
     static const double force[3] = {-999.999999, -999.999999, 999.999999};
     char command[KNURL_INVERSE3_COMMAND];
-    assert_true(knurl_inverse3_command(command, "0123456789abcde", force, 1) < sizeof command);
-    assert_non_null(strstr(command, "\"configure\":{\"preset\":{\"preset\":\"arm_front_centered\"},"
-                                    "\"damping\":{\"scalar\":0}},\"commands\":"));
+    for (int i = 0; i < 3; i++) {
+        static const char *const gravities[] = {"0", "1", ""};
+        static const char *const expected[] = {
+            ",\"gravity_compensation\":{\"enabled\":false}},\"commands\":",
+            ",\"gravity_compensation\":{\"enabled\":true}},\"commands\":", "\"damping\":{\"scalar\":0}},\"commands\":"};
+        const char *configuration = knurl_inverse3_configuration(gravities[i]);
+        assert_true(knurl_inverse3_command(command, "0123456789abcde", force, configuration) < sizeof command);
+        assert_non_null(strstr(command, "\"configure\":{\"preset\":{\"preset\":\"arm_front_centered\"},"
+                                        "\"damping\":{\"scalar\":0}"));
+        assert_non_null(strstr(command, expected[i]));
+    }
 }

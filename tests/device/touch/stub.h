@@ -81,6 +81,8 @@ typedef struct stub_push {
     double from[3];  /* m: the last position */
     uint64_t ticks;
     uint32_t buttons;
+    double joints[8];
+    uint32_t joint_count;
 } stub_push;
 
 static inline void stub_push_force(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user) {
@@ -89,6 +91,8 @@ static inline void stub_push_force(uint64_t tick, const knurl_device_sample *sam
     memcpy(force, push->force, sizeof push->force);
     memcpy(push->from, sample->position, sizeof push->from);
     push->buttons = sample->buttons;
+    push->joint_count = sample->joint_count;
+    memcpy(push->joints, sample->joints, sizeof push->joints);
     __atomic_fetch_add(&push->ticks, 1, __ATOMIC_RELAXED);
 }
 

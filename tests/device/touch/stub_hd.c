@@ -319,6 +319,7 @@ static void tell_position(const simulated *d, double mm[3]) {
 
 void HD_CALL hdGetDoublev(hd_enum what, double *values) {
     static const double workspace[6] = {-80.0, -60.0, -35.0, 80.0, 60.0, 35.0};
+    static const double joints[6] = {0.1, 0.2, -0.3, 1.1, -0.7, 3.0};
     static const double transform[16] = {[1] = 1.0, [6] = 1.0, [8] = 1.0, [15] = 1.0}; /* x to y, y to z, z to x */
     lock();
     const simulated *d = current();
@@ -329,13 +330,21 @@ void HD_CALL hdGetDoublev(hd_enum what, double *values) {
     } else if (d && d->settings[STUB_TELLS_NOTHING] > 0.0) {
         push(0x0100, hd.current);
     } else if (d && d->settings[STUB_RANDOM] > 0.0) {
-        for (int i = 0; i < (what == HD_USABLE_WORKSPACE ? 6 : what == HD_TRANSFORM ? 16 : 1); i++) {
+        for (int i = 0; i < (what == HD_USABLE_WORKSPACE              ? 6
+                             : what == HD_TRANSFORM                   ? 16
+                             : what == HD_JOINTS || what == HD_GIMBAL ? 3
+                                                                      : 1);
+             i++) {
             values[i] = random_double();
         }
     } else if (d) {
         switch (what) {
         case HD_USABLE_WORKSPACE:
             memcpy(values, workspace, sizeof workspace);
+            break;
+        case HD_JOINTS:
+        case HD_GIMBAL:
+            memcpy(values, joints + (what == HD_JOINTS ? 0 : 3), 3 * sizeof *joints);
             break;
         case HD_MAX_FORCE:
             *values = 3.3;

@@ -115,6 +115,17 @@ TEST_WITH(the_orientation_of_the_stylus_is_told, stub_by_hand, stub_check) {
     end(&b);
 }
 
+/* Three of the arm, then three of the gimbal; -0.3 and 3 are the stub's last ones. */
+TEST_WITH(the_joints_angles_are_in_the_sample, stub_by_hand, stub_check) {
+    bench b;
+    start(&b, 0.0);
+    stub.turn(10);
+    assert_int_equal(b.push.joint_count, 6);
+    CHECK_CLOSE(b.push.joints[2], -0.3, 1e-15);
+    CHECK_CLOSE(b.push.joints[5], 3.0, 1e-15);
+    end(&b);
+}
+
 TEST_WITH(positions_come_in_metres_and_buttons_as_bits, stub_by_hand, stub_check) {
     bench b;
     stub.set(STUB_DEFAULT, STUB_STROKE, KNURL_STROKE_REST);
@@ -273,7 +284,7 @@ TEST_WITH(it_can_be_read_and_written_only_in_a_tick, stub_by_hand, stub_check) {
 
 TEST_WITH(a_loop_cannot_be_stepped, stub_by_hand, stub_check) {
     knurl_loop *loop = NULL;
-    stub_push push = {{0}, {0}, 0, 0};
+    stub_push push = {.buttons = 0};
     SCOPED_DEVICE *device = stub_open("touch");
     const knurl_loop_desc desc = stub_loop_desc(device, &push);
     assert_int_equal(knurl_loop_create(&desc, &loop), KNURL_OK);

@@ -140,7 +140,7 @@ static void dream_once(uint64_t tick, const knurl_device_sample *sample, double 
 
 TEST_WITH(a_tick_that_takes_longer_than_a_second_is_no_loss, stub_by_hand, stub_check) {
     knurl_loop *loop = NULL;
-    stub_push push = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, 0, 0};
+    stub_push push = {.buttons = 0};
     stub.set(0, STUB_BY_HAND, 0.0);
     SCOPED_DEVICE *device = stub_open("touch");
     knurl_loop_desc desc = stub_loop_desc(device, &push);

@@ -301,6 +301,8 @@ namespace Knurl
         public double coulomb;
         public double max_stiffness;
         public double native_rate;
+        public double max_torque;
+        public double max_grip;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -308,8 +310,19 @@ namespace Knurl
     {
         public fixed double position[3];
         public fixed double orientation[4];
+        public double grip;
+        public fixed double joints[8];
         public uint buttons;
-        public fixed uint reserved[9];
+        public uint joint_count;
+        public fixed uint reserved[8];
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct knurl_device_torque
+    {
+        public fixed double torque[3];
+        public double grip;
+        public fixed double reserved[4];
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -343,6 +356,8 @@ namespace Knurl
         public double exchange_ns_p50;
         public double exchange_ns_p99;
         public fixed double orientation[4];
+        public double grip;
+        public double battery;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -465,6 +480,7 @@ namespace Knurl
         public uint protections;
         public uint reconnect;
         public double heartbeat_s;
+        public IntPtr torque_callback;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -492,6 +508,8 @@ namespace Knurl
         public ulong absences;
         public uint absent;
         public uint paused;
+        public uint io_realtime;
+        public uint reserved;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -501,7 +519,7 @@ namespace Knurl
         public uint triangle_count;
         public uint dropped_triangles;
         public uint double_sided;
-        public fixed byte name[256];
+        public byte* name;
         public byte* shape;
         public byte* model;
         public ulong bytes;
@@ -701,6 +719,10 @@ namespace Knurl
         IntPtr user);
 
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    internal unsafe delegate void knurl_torque_callback(ulong tick, knurl_device_sample* sample,
+        knurl_device_torque* torque, IntPtr user);
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     internal unsafe delegate void knurl_tick_callback(knurl_tick_output* output, IntPtr user);
 
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
@@ -714,7 +736,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>The result of knurl_unity_interface() of the library that this file was generated for.</summary>
-        internal const string Interface = "8b9739cdd527f8ab";
+        internal const string Interface = "c0013added8222e3";
 
         internal const string Version = "0.3.0";
 
@@ -746,6 +768,7 @@ namespace Knurl
                 case "knurl_audio_desc": return sizeof(knurl_audio_desc);
                 case "knurl_device_info": return sizeof(knurl_device_info);
                 case "knurl_device_sample": return sizeof(knurl_device_sample);
+                case "knurl_device_torque": return sizeof(knurl_device_torque);
                 case "knurl_device_listing": return sizeof(knurl_device_listing);
                 case "knurl_device_event": return sizeof(knurl_device_event);
                 case "knurl_device_status": return sizeof(knurl_device_status);
@@ -790,7 +813,6 @@ namespace Knurl
         internal const int KNURL_GAINS = 75;
         internal const int KNURL_EFFECTS_MAX = 8;
         internal const int KNURL_PATH_ROWS_MAX = 65536;
-        internal const int KNURL_NAME_SIZE = 256;
         internal const double KNURL_FAR = 1000000.0;
         internal const double KNURL_STRETCH_MAX = 2.0;
         internal const int KNURL_SESSION_HISTORY = 8192;
@@ -864,6 +886,7 @@ namespace Knurl
         internal const int KNURL_FAULT_FORCE_OFF = 17;
         internal const int KNURL_FAULT_RESUMED = 32;
         internal const int KNURL_FAULT_RECONNECTED = 33;
+        internal const int KNURL_FAULT_BATTERY = 34;
         internal const int KNURL_FORCE_OFF_UNTOLD = 0;
         internal const int KNURL_FORCE_OFF_BUTTON = 1;
         internal const int KNURL_FORCE_OFF_VELOCITY = 2;
@@ -1269,7 +1292,7 @@ namespace Knurl
         internal static extern int knurl_scene_find_surface(knurl_scene* scene, byte* name, ulong* surface);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int knurl_scene_get_surface_name(knurl_scene* scene, ulong surface, byte* name);
+        internal static extern int knurl_scene_get_surface_name(knurl_scene* scene, ulong surface, byte** name);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void knurl_surface_info_init(knurl_surface_info* info, uint size);

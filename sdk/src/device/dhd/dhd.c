@@ -19,19 +19,23 @@
 #define NATIVE_RATE   1000.0 /* Hz; the library allows more, up to 4000 */
 #define STATUS_CYCLES 10u    /* exchanges per status query: too few for a hand to press a button twice */
 
-/* Properties by model. Force, stiffness and workspace radius: CHAI3D's cDeltaDevices; lambdas and the other
- * sigmas: as a sigma.7. Continuous forces are not published: a third of the peak. */
+/* Properties by model: N, N/m, m, the peaks of torque (N m) and gripper (N), joints with an encoder. CHAI3D's
+ * cDeltaDevices; lambdas and the other sigmas: as a sigma.7. Continuous ones are not published: a third of the peak. */
 static const struct {
     int type;
-    double max_force, max_stiffness, radius;
+    double max_force, max_stiffness, radius, max_torque, max_grip;
+    uint32_t joints;
 } models[] = {
-    {DHD_OMEGA, 12.0, 5000.0, 0.075},       {DHD_OMEGA3, 12.0, 5000.0, 0.075}, {DHD_OMEGA6, 12.0, 5000.0, 0.075},
-    {DHD_OMEGA6_LEFT, 12.0, 5000.0, 0.075}, {DHD_OMEGA7, 12.0, 5000.0, 0.075}, {DHD_OMEGA7_LEFT, 12.0, 5000.0, 0.075},
-    {DHD_DELTA3, 20.0, 5000.0, 0.15},       {DHD_DELTA6, 20.0, 5000.0, 0.15},  {DHD_SIGMA7, 12.0, 4000.0, 0.09},
-    {DHD_SIGMA7_LEFT, 12.0, 4000.0, 0.09},  {DHD_SIGMA6, 12.0, 4000.0, 0.09},  {DHD_SIGMA6_LEFT, 12.0, 4000.0, 0.09},
-    {DHD_SIGMA3, 12.0, 4000.0, 0.09},       {DHD_LAMBDA3, 12.0, 4000.0, 0.09}, {DHD_LAMBDA6, 12.0, 4000.0, 0.09},
-    {DHD_LAMBDA6_LEFT, 12.0, 4000.0, 0.09}, {DHD_LAMBDA7, 12.0, 4000.0, 0.09}, {DHD_LAMBDA7_LEFT, 12.0, 4000.0, 0.09},
-    {DHD_FALCON, 8.0, 3000.0, 0.04}, /* also the weakest: used if the type is unknown */
+    {DHD_OMEGA, 12.0, 5000.0, 0.075, 0.0, 0.0, 3},      {DHD_OMEGA3, 12.0, 5000.0, 0.075, 0.0, 0.0, 3},
+    {DHD_OMEGA6, 12.0, 5000.0, 0.075, 0.0, 0.0, 6},     {DHD_OMEGA6_LEFT, 12.0, 5000.0, 0.075, 0.0, 0.0, 6},
+    {DHD_OMEGA7, 12.0, 5000.0, 0.075, 0.0, 8.0, 7},     {DHD_OMEGA7_LEFT, 12.0, 5000.0, 0.075, 0.0, 8.0, 7},
+    {DHD_DELTA3, 20.0, 5000.0, 0.15, 0.0, 0.0, 3},      {DHD_DELTA6, 20.0, 5000.0, 0.15, 0.0, 0.0, 6},
+    {DHD_SIGMA3, 12.0, 4000.0, 0.09, 0.0, 0.0, 3},      {DHD_SIGMA6, 12.0, 4000.0, 0.09, 0.2, 0.0, 6},
+    {DHD_SIGMA6_LEFT, 12.0, 4000.0, 0.09, 0.2, 0.0, 6}, {DHD_SIGMA7, 12.0, 4000.0, 0.09, 0.2, 8.0, 7},
+    {DHD_SIGMA7_LEFT, 12.0, 4000.0, 0.09, 0.2, 8.0, 7}, {DHD_LAMBDA3, 12.0, 4000.0, 0.09, 0.0, 0.0, 3},
+    {DHD_LAMBDA6, 12.0, 4000.0, 0.09, 0.2, 0.0, 6},     {DHD_LAMBDA6_LEFT, 12.0, 4000.0, 0.09, 0.2, 0.0, 6},
+    {DHD_LAMBDA7, 12.0, 4000.0, 0.09, 0.2, 8.0, 7},     {DHD_LAMBDA7_LEFT, 12.0, 4000.0, 0.09, 0.2, 8.0, 7},
+    {DHD_FALCON, 8.0, 3000.0, 0.04, 0.0, 0.0, 3}, /* also the weakest: used if the type is unknown */
 };
 
 #define MODEL_COUNT (sizeof models / sizeof *models)
@@ -44,6 +48,9 @@ typedef struct dhd {
     uint32_t is_open;
     size_t model; /* index into models[] */
     char name[64];
+    double opens;          /* 1, or -1: the sign of angles and forces that open the gripper */
+    uint32_t sets_gravity; /* 1: its compensation is to be... */
+    uint32_t gravity;      /* on (1) or off */
     uint32_t until_status; /* exchanges; of the I/O thread */
 } dhd;
 
@@ -133,16 +140,30 @@ static void tell_orientation(dhd *d, double q[4]) {
     quaternion_from_axes(columns[1], columns[2], columns[0], q);
 }
 
+/* The gripper's angle, and the joints'; none of those that the library refuses. */
+static void tell_angles(dhd *d, knurl_device_sample *sample) {
+    double angles[DHD_ANGLES] = {0.0};
+    if (d->base.max_grip > 0.0 && api.get_grip(&sample->grip, d->id) >= 0) {
+        sample->grip *= d->opens;
+    }
+    if (api.get_joints(angles, d->id) >= 0) {
+        sample->joint_count = models[d->model].joints;
+        memcpy(sample->joints, angles, sample->joint_count * sizeof *angles);
+    }
+}
+
 /* While forces are off, sends zeros: when they are switched on again, the device at once plays the last force sent. */
-static int exchange(knurl_device *device, const double force[3], knurl_device_sample *sample) {
+static int exchange(knurl_device *device, const double force[KNURL_FORCES], knurl_device_sample *sample) {
     dhd *d = of(device);
+    double f[KNURL_FORCES];
     double x = NAN;
     double y = NAN;
     double z = NAN;
     const int outcome = look_at_status(d);
-    const double share = outcome == KNURL_LINK_POSITION ? 1.0 : 0.0;
-    const int is_told =
-        api.set_force(share * force[2], share * force[0], share * force[1], 0.0, 0.0, 0.0, 0.0, d->id) >= 0;
+    for (int i = 0; i < KNURL_FORCES; i++) {
+        f[i] = outcome == KNURL_LINK_POSITION ? force[i] : 0.0;
+    }
+    const int is_told = api.set_force(f[2], f[0], f[1], f[5], f[3], f[4], d->opens * f[6], d->id) >= 0;
     if (!is_told && is_gone()) {
         return KNURL_LINK_LOST;
     }
@@ -157,6 +178,7 @@ static int exchange(knurl_device *device, const double force[3], knurl_device_sa
     sample->position[2] = x;
     sample->buttons = api.buttons(d->id);
     tell_orientation(d, sample->orientation);
+    tell_angles(d, sample);
     return is_told ? KNURL_LINK_POSITION : KNURL_LINK_NOTHING;
 }
 
@@ -197,6 +219,9 @@ static knurl_result identify(dhd *d) {
     }
     const char *name = api.name(d->id);
     d->model = model;
+    d->opens = api.is_left(d->id) ? -1.0 : 1.0;
+    d->base.max_torque = models[model].max_torque / 3.0;
+    d->base.max_grip = models[model].max_grip / 3.0;
     (void)snprintf(d->name, sizeof d->name, "Force Dimension %.40s", name ? name : "device");
     return KNURL_OK;
 }
@@ -220,6 +245,8 @@ static knurl_result connect(dhd *d) {
     d->is_open = 1;
     d->until_status = 0;
     knurl_result result = identify(d);
+    const int is_refused = !result && d->sets_gravity && api.set_gravity((int)d->gravity, d->id) < 0;
+    result = is_refused ? refuse(d, "switch its gravity compensation") : result;
     result = result ? result : api.enable_force(1, d->id) < 0 ? refuse(d, "play forces") : KNURL_OK;
     result = result ? result : knurl_link_open(&d->link, &d->base, exchange, NATIVE_RATE);
     if (result) {
@@ -233,11 +260,14 @@ static knurl_result parse(const char *options, dhd *d) {
     char library[KNURL_URI_ROOM];
     char why[512];
     double number = 0.0;
-    const knurl_uri_key keys[] = {{"library", library}};
-    const knurl_result result = knurl_uri_parse("dhd", options, index, keys, 1);
+    char gravity[KNURL_URI_ROOM];
+    const knurl_uri_key keys[] = {{"library", library}, {"gravity", gravity}};
+    knurl_result result = knurl_uri_parse("dhd", options, index, keys, 2);
+    result = result ? result : knurl_uri_flag("dhd", "gravity", gravity, &d->gravity);
     if (result) {
         return result;
     }
+    d->sets_gravity = gravity[0] != '\0';
     if (index[0] && !(knurl_number(index, strlen(index), &number) && knurl_is_within(number, 0.0, 15.0) &&
                       number == floor(number))) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "device 'dhd': expected dhd or dhd:0 to dhd:15, found 'dhd:%.100s'",
@@ -304,6 +334,8 @@ static void dhd_info(const knurl_device *device, knurl_device_info *info) {
     info->coulomb = 0.3;                              /* assumed */
     info->delay = 1.0;                                /* assumed */
     info->native_rate = NATIVE_RATE;
+    info->max_torque = device->max_torque;
+    info->max_grip = device->max_grip;
 }
 
 const knurl_driver knurl_dhd_driver = {

@@ -47,6 +47,8 @@ enum {
     DHD_STATUS_ROOM = 64             /* 16 in 3.7, more in later ones */
 };
 
+#define DHD_ANGLES 8 /* written by dhdGetJointAngles() */
+
 /* Results of dhdErrorGetLast() if the device is gone. */
 enum { DHD_ERROR_COM = 2, DHD_ERROR_NO_DEVICE = 5, DHD_ERROR_NOT_AVAILABLE = 6 };
 
@@ -63,6 +65,10 @@ enum { DHD_ERROR_COM = 2, DHD_ERROR_NO_DEVICE = 5, DHD_ERROR_NOT_AVAILABLE = 6 }
     X(buttons, unsigned, dhdGetButtonMask, (char id))                                                                  \
     X(get_position, int, dhdGetPosition, (double *x, double *y, double *z, char id))                                   \
     X(get_orientation, int, dhdGetOrientationFrame, (double *rows, char id))                                           \
+    X(get_grip, int, dhdGetGripperAngleRad, (double *angle, char id))                                                  \
+    X(get_joints, int, dhdGetJointAngles, (double *angles, char id))                                                   \
+    X(is_left, unsigned char, dhdIsLeftHanded, (char id)) /* C++'s bool */                                             \
+    X(set_gravity, int, dhdSetGravityCompensation, (int on, char id))                                                  \
     X(set_force, int, dhdSetForceAndTorqueAndGripperForce,                                                             \
       (double fx, double fy, double fz, double tx, double ty, double tz, double grip, char id))                        \
     X(error, int, dhdErrorGetLast, (void))                                                                             \

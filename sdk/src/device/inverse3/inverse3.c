@@ -2,6 +2,7 @@
  * exchange() first. SPDX-License-Identifier: MIT */
 #include "device/inverse3/channel.h"
 
+#include "base/atomic.h"
 #include "base/format.h"
 #include "base/number.h"
 #include "base/system.h"
@@ -19,6 +20,9 @@
 #define PORT        10001   /* the service's default */
 #define ANSWER_NS   5000000 /* to wait for an answer in an exchange */
 #define HELLO_MS    500     /* to wait for a first message, and for the first answer */
+
+#define LOW_BATTERY 0.15 /* assumed: the service's threshold is not published */
+#define RADIAN      0.017453292519943295
 
 /* Consecutive states without the device after which it counts as lost: by then its force has been zero for a while,
  * because a device without a position counts as silent after 10 ms. */
@@ -47,12 +51,15 @@ typedef struct inverse3 {
     const knurl_inverse3_service *service;
     knurl_inverse3_channel channel;
     int port;
-    char id[KNURL_INVERSE3_ID_ROOM]; /* "": the first */
-    size_t model;                    /* index into models[] */
-    double force_gate;               /* as knurl_inverse3_entry */
+    char id[KNURL_INVERSE3_ID_ROOM];   /* "": the first */
+    char grip[KNURL_INVERSE3_ID_ROOM]; /* the handle's; "": the first */
+    char gravity[2];                   /* its compensation: "1", "0"; "": as it is */
+    size_t model;                      /* index into models[] */
+    double force_gate;                 /* as knurl_inverse3_entry */
     /* of the I/O thread */
     uint32_t unanswered; /* messages sent but not answered; each is answered once, in order */
     uint32_t left_out;   /* consecutive states without the device */
+    uint32_t is_empty;   /* 1: the handle's battery is almost empty, and was reported */
 } inverse3;
 
 static inverse3 *of(knurl_device *device) {
@@ -95,6 +102,21 @@ static int32_t find_trouble(const knurl_inverse3_entry *entry, int32_t *cause) {
     return *cause ? KNURL_FAULT_FORCE_OFF : 0;
 }
 
+/* Takes the handle's state. */
+static void take_grip(inverse3 *d, const knurl_inverse3_state *state, knurl_device_sample *sample) {
+    knurl_inverse3_grip grip;
+    knurl_inverse3_find_grip(state, d->grip, &grip);
+    memcpy(sample->orientation, grip.orientation, sizeof sample->orientation);
+    sample->buttons = grip.buttons;
+    knurl_store_double(&d->base.battery, grip.battery);
+    if (grip.battery > 0.0 && grip.battery < LOW_BATTERY && !d->is_empty) {
+        d->is_empty = 1;
+        knurl_events_report(&d->base.events, KNURL_FAULT_BATTERY, grip.battery);
+    } else if (grip.battery > 2.0 * LOW_BATTERY) {
+        d->is_empty = 0;
+    }
+}
+
 /* Takes the device's state from an answer. */
 static int take_state(inverse3 *d, const knurl_inverse3_message *message, knurl_device_sample *sample) {
     int32_t cause = 0;
@@ -112,8 +134,11 @@ static int take_state(inverse3 *d, const knurl_inverse3_message *message, knurl_
     }
     d->link.is_corrupt = 0;
     knurl_inverse3_to_knurl(entry->position, sample->position);
-    knurl_inverse3_orientation(&state, sample->orientation);
-    sample->buttons = state.wireless.buttons | state.custom.buttons | state.wired.buttons;
+    sample->joint_count = 3;
+    for (int i = 0; i < 3; i++) {
+        sample->joints[i] = RADIAN * entry->joints[i];
+    }
+    take_grip(d, &state, sample);
     const int32_t trouble = find_trouble(entry, &cause);
     return knurl_link_take_trouble(&d->link, trouble, cause);
 }
@@ -128,7 +153,7 @@ static int exchange(knurl_device *device, const double force[3], knurl_device_sa
     }
     count_answers(d, came);
     const int64_t until = knurl_system_now_ns() + ANSWER_NS;
-    if (!d->channel.send(d->channel.self, text, knurl_inverse3_command(text, d->id, force, 0))) {
+    if (!d->channel.send(d->channel.self, text, knurl_inverse3_command(text, d->id, force, ""))) {
         return await_answer(d, until, &message) == KNURL_LINK_LOST ? KNURL_LINK_LOST : KNURL_LINK_NOTHING;
     }
     d->unanswered++;
@@ -220,7 +245,8 @@ static knurl_result configure(inverse3 *d) {
     char text[KNURL_INVERSE3_COMMAND];
     knurl_inverse3_message message = {NULL, 0};
     d->unanswered = 1;
-    if (d->channel.send(d->channel.self, text, knurl_inverse3_command(text, d->id, none, 1)) &&
+    const char *configuration = knurl_inverse3_configuration(d->gravity);
+    if (d->channel.send(d->channel.self, text, knurl_inverse3_command(text, d->id, none, configuration)) &&
         await_answer(d, knurl_system_now_ns() + HELLO_MS * INT64_C(1000000), &message) == KNURL_LINK_POSITION) {
         return KNURL_OK;
     }
@@ -245,9 +271,13 @@ static knurl_result connect(inverse3 *d) {
 static knurl_result parse(const char *options, inverse3 *d) {
     char id[KNURL_URI_ROOM];
     char port[KNURL_URI_ROOM];
+    char grip[KNURL_URI_ROOM];
+    char gravity[KNURL_URI_ROOM];
     double number = PORT;
-    const knurl_uri_key keys[] = {{"port", port}};
-    const knurl_result result = knurl_uri_parse("inverse3", options, id, keys, 1);
+    uint32_t is_on;
+    const knurl_uri_key keys[] = {{"port", port}, {"grip", grip}, {"gravity", gravity}};
+    knurl_result result = knurl_uri_parse("inverse3", options, id, keys, sizeof keys / sizeof *keys);
+    result = result ? result : knurl_uri_flag("inverse3", "gravity", gravity, &is_on);
     if (result) {
         return result;
     }
@@ -255,13 +285,15 @@ static knurl_result parse(const char *options, inverse3 *d) {
                      number == floor(number))) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "device 'inverse3': port: expected 1 to 65535, found '%.100s'", port);
     }
-    if (strlen(id) >= sizeof d->id) {
+    if (strlen(id) >= sizeof d->id || strlen(grip) >= sizeof d->grip) {
         return knurl_fail(KNURL_ERROR_ARGUMENT,
-                          "device 'inverse3': expected an id such as 049D, as `knurl devices` lists it, found '%.100s'",
-                          id);
+                          "device 'inverse3': expected an id such as 049D, as the Haply Hub shows it, found '%.100s'",
+                          strlen(id) >= sizeof d->id ? id : grip);
     }
     d->port = (int)number;
     memcpy(d->id, id, strlen(id) + 1);
+    memcpy(d->grip, grip, strlen(grip) + 1);
+    memcpy(d->gravity, gravity, strlen(gravity) + 1);
     return KNURL_OK;
 }
 

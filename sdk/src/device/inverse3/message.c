@@ -19,19 +19,34 @@ void knurl_inverse3_from_knurl(const double from[3], double to[3]) {
     to[2] = from[1];
 }
 
-void knurl_inverse3_orientation(const knurl_inverse3_state *state, double q[4]) {
-    const knurl_inverse3_grip *grips[] = {&state->wireless, &state->custom, &state->wired};
-    memset(q, 0, 4 * sizeof *q);
-    for (size_t i = 0; i < sizeof grips / sizeof *grips; i++) {
-        const double *o = grips[i]->orientation;
-        const double square = vec3_dot(o, o) + o[3] * o[3];
-        if (fabs(square - 1.0) < 0.01) {
-            knurl_inverse3_to_knurl(o, q);
-            q[3] = o[3];
-            for (int k = 0; k < 4; k++) {
-                q[k] /= sqrt(square);
-            }
-            return;
+/* Returns 1 if the service's quaternion is of unit length. */
+static int turn_to_knurl(const double o[4], double q[4]) {
+    const double square = vec3_dot(o, o) + o[3] * o[3];
+    if (!(fabs(square - 1.0) < 0.01)) {
+        return 0;
+    }
+    knurl_inverse3_to_knurl(o, q);
+    q[3] = o[3];
+    for (int k = 0; k < 4; k++) {
+        q[k] /= sqrt(square);
+    }
+    return 1;
+}
+
+void knurl_inverse3_find_grip(const knurl_inverse3_state *state, const char *id, knurl_inverse3_grip *found) {
+    uint32_t first = 0;
+    memset(found, 0, sizeof *found);
+    while (!id[0] && first < state->grip_count && !turn_to_knurl(state->grips[first].orientation, found->orientation)) {
+        first++;
+    }
+    id = id[0] ? id : state->grips[first < state->grip_count ? first : 0].id;
+    for (uint32_t i = 0; i < state->grip_count; i++) {
+        const knurl_inverse3_grip *grip = &state->grips[i];
+        if (strcmp(grip->id, id) == 0) {
+            memcpy(found->id, grip->id, sizeof found->id);
+            found->buttons |= grip->buttons;
+            found->battery = fmax(found->battery, grip->battery);
+            (void)turn_to_knurl(grip->orientation, found->orientation);
         }
     }
 }
@@ -54,8 +69,16 @@ static void put_number(char text[32], double value) {
     (void)snprintf(text, 32, "%s%ld.%06ld", value < 0.0 ? "-" : "", millionths / 1000000, millionths % 1000000);
 }
 
+#define CONFIGURE "\"configure\":{\"preset\":{\"preset\":\"arm_front_centered\"},\"damping\":{\"scalar\":0}"
+
+const char *knurl_inverse3_configuration(const char *gravity) {
+    return gravity[0] == '1'   ? CONFIGURE ",\"gravity_compensation\":{\"enabled\":true}},"
+           : gravity[0] == '0' ? CONFIGURE ",\"gravity_compensation\":{\"enabled\":false}},"
+                               : CONFIGURE "},";
+}
+
 size_t knurl_inverse3_command(char text[KNURL_INVERSE3_COMMAND], const char *id, const double force[3],
-                              int configures) {
+                              const char *configuration) {
     char numbers[3][32];
     double f[3];
     knurl_inverse3_from_knurl(force, f);
@@ -65,11 +88,7 @@ size_t knurl_inverse3_command(char text[KNURL_INVERSE3_COMMAND], const char *id,
     return (size_t)snprintf(text, KNURL_INVERSE3_COMMAND,
                             "{\"inverse3\":[{\"device_id\":\"%s\",%s\"commands\":{\"set_cursor_force\":{\"vector\":{"
                             "\"x\":%s,\"y\":%s,\"z\":%s}}}}]}",
-                            id,
-                            configures ? "\"configure\":{\"preset\":{\"preset\":\"arm_front_centered\"},"
-                                         "\"damping\":{\"scalar\":0}},"
-                                       : "",
-                            numbers[0], numbers[1], numbers[2]);
+                            id, configuration, numbers[0], numbers[1], numbers[2]);
 }
 
 /* --- reading --- */
@@ -173,14 +192,19 @@ static int take_number(const json *j, int at, double *value) {
     return count < sizeof kept && knurl_number(kept, count, value);
 }
 
-/* Reads the numbers x, y, z and (4) w. Returns 1 if all are present. */
-static int take_numbers(const json *j, int object, int wanted, double *values) {
-    static const char *const keys[] = {"x", "y", "z", "w"};
+/* Reads numbers by their keys. Returns 1 if all are present. */
+static int take_named(const json *j, int object, const char *const *keys, int wanted, double *values) {
     int has_all = 1;
     for (int i = 0; i < wanted; i++) {
         has_all &= take_number(j, member(j, object, keys[i]), &values[i]);
     }
     return has_all;
+}
+
+/* Reads the numbers x, y, z and (4) w. Returns 1 if all are present. */
+static int take_numbers(const json *j, int object, int wanted, double *values) {
+    static const char *const keys[] = {"x", "y", "z", "w"};
+    return take_named(j, object, keys, wanted, values);
 }
 
 static uint32_t is_true(const json *j, int at) {
@@ -204,6 +228,7 @@ static void take_id(const json *j, int at, char id[KNURL_INVERSE3_ID_ROOM]) {
 }
 
 static void take_device(const json *j, int at, knurl_inverse3_entry *entry) {
+    static const char *const angles[] = {"a0", "a1", "a2"};
     const int config = member(j, at, "config");
     const int status = member(j, at, "status");
     const int preset = member(j, config, "preset");
@@ -216,18 +241,36 @@ static void take_device(const json *j, int at, knurl_inverse3_entry *entry) {
     entry->is_unpowered = is_denied(j, member(j, status, "power_supply"));
     entry->is_uncalibrated = is_denied(j, member(j, status, "calibrated"));
     entry->is_not_ready = is_denied(j, member(j, status, "ready"));
-    entry->has_position =
-        (uint32_t)take_numbers(j, member(j, member(j, at, "state"), "cursor_position"), 3, entry->position);
+    const int state = member(j, at, "state");
+    entry->has_position = (uint32_t)take_numbers(j, member(j, state, "cursor_position"), 3, entry->position);
+    if (!take_named(j, member(j, state, "angular_position"), angles, 3, entry->joints)) {
+        memset(entry->joints, 0, sizeof entry->joints);
+    }
 }
 
 static void take_grip(const json *j, int at, knurl_inverse3_grip *grip) {
     const int state = member(j, at, "state");
     const int buttons = member(j, state, "buttons");
+    take_id(j, member(j, at, "device_id"), grip->id);
+    if (!take_number(j, member(j, state, "battery_level"), &grip->battery) || !(fabs(grip->battery - 0.5) <= 0.5)) {
+        grip->battery = 0.0;
+    }
     if (!take_numbers(j, member(j, state, "orientation"), 4, grip->orientation)) {
         memset(grip->orientation, 0, sizeof grip->orientation);
     }
     grip->buttons = is_true(j, member(j, buttons, "a")) | is_true(j, member(j, buttons, "b")) << 1 |
                     is_true(j, member(j, buttons, "c")) << 2 | is_true(j, member(j, state, "button"));
+}
+
+static void take_grips(const json *j, knurl_inverse3_state *state) {
+    static const char *const kinds[] = {"wireless_verse_grip", "custom_verse_grip", "verse_grip"};
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        const int grips = member(j, 0, kinds[i]);
+        for (int at = element(j, grips, NONE); at != NONE && state->grip_count < KNURL_INVERSE3_DEVICES;
+             at = element(j, grips, at)) {
+            take_grip(j, at, &state->grips[state->grip_count++]);
+        }
+    }
 }
 
 int knurl_inverse3_read(const char *text, size_t size, knurl_inverse3_state *state) {
@@ -249,9 +292,7 @@ int knurl_inverse3_read(const char *text, size_t size, knurl_inverse3_state *sta
         take_device(&j, at, &state->entries[i]);
         at = element(&j, devices, at);
     }
-    take_grip(&j, element(&j, member(&j, 0, "wireless_verse_grip"), NONE), &state->wireless);
-    take_grip(&j, element(&j, member(&j, 0, "custom_verse_grip"), NONE), &state->custom);
-    take_grip(&j, element(&j, member(&j, 0, "verse_grip"), NONE), &state->wired);
+    take_grips(&j, state);
     return 1;
 }
 

@@ -42,6 +42,8 @@ enum {
     HD_BUTTONS = 0x2000,
     HD_POSITION = 0x2050,  /* 3 doubles, mm */
     HD_TRANSFORM = 0x2052, /* 16 doubles, column by column: from the stylus' axes to the device's, mm */
+    HD_JOINTS = 0x2100,    /* 3 doubles, rad: turret, thigh, shin */
+    HD_GIMBAL = 0x2150,    /* 3 doubles, rad: of the stylus */
     HD_VERSION = 0x2500,
     HD_MODEL = 0x2501,
     HD_DRIVER_VERSION = 0x2502,

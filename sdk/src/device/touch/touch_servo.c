@@ -67,11 +67,14 @@ static void keep_calibration(touch *t) {
 static void read_frame(touch *t) {
     double position[3] = {NAN, NAN, NAN};
     double transform[16] = {0.0};
+    double joints[6] = {NAN, NAN, NAN, NAN, NAN, NAN};
     int32_t buttons = 0;
     for (int attempt = 0; attempt < 2; attempt++) {
         t->hd->get_doubles(HD_POSITION, position);
         t->hd->get_integers(HD_BUTTONS, &buttons);
         t->hd->get_doubles(HD_TRANSFORM, transform);
+        t->hd->get_doubles(HD_JOINTS, joints);
+        t->hd->get_doubles(HD_GIMBAL, joints + 3);
         if (t->hd->current() == t->handle) {
             break;
         }
@@ -80,6 +83,8 @@ static void read_frame(touch *t) {
     memset(&t->sample, 0, sizeof t->sample);
     vec3_scale(1e-3, position, t->sample.position);
     t->sample.buttons = (uint32_t)buttons;
+    t->sample.joint_count = 6;
+    memcpy(t->sample.joints, joints, sizeof joints);
     quaternion_from_axes(&transform[0], &transform[4], &transform[8], t->sample.orientation);
     memset(t->force, 0, sizeof t->force); /* without a write in the tick there is no force */
 }
