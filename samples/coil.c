@@ -8,7 +8,8 @@
 #include <math.h>
 #include <stdio.h>
 
-#define RATE     48000.0
+#define RATE     48000.0 /* Hz: samples */
+#define TICKS    1000.0  /* Hz */
 #define SECONDS  5.0
 #define BLOCK    96    /* samples: 2 ms */
 #define INTERVAL 0.001 /* s between two looks at the ticks */
@@ -43,7 +44,7 @@ static int play(knurl_loop *loop, knurl_audio *audio, FILE *out) {
         if (knurl_loop_get_stats(loop, &stats)) {
             return 1;
         }
-        while ((double)written + BLOCK <= RATE * (double)stats.ticks / 1000.0) {
+        while ((double)written + BLOCK <= RATE * (double)stats.ticks / TICKS) {
             float samples[BLOCK];
             unsigned char bytes[2 * BLOCK];
             knurl_audio_fill(audio, samples, BLOCK);
@@ -72,6 +73,8 @@ static knurl_result start(const char *uri, knurl_scene **scene, knurl_device **d
     knurl_audio_desc_init(&voice, sizeof voice);
     knurl_loop_desc_init(&desc, sizeof desc);
     voice.voice = KNURL_VOICE_COIL;
+    voice.sample_rate_hz = RATE;
+    voice.update_rate_hz = TICKS;
     knurl_result result = make_scene(scene);
     result = result ? result : knurl_device_open(uri, device);
     result = result ? result : knurl_audio_create(&voice, audio);
@@ -79,7 +82,8 @@ static knurl_result start(const char *uri, knurl_scene **scene, knurl_device **d
     desc.device = *device;
     desc.tick_callback = knurl_audio_take; /* each tick, on the haptic thread */
     desc.user = *audio;
-    desc.tick_limit = (uint64_t)(1000.0 * SECONDS);
+    desc.update_rate_hz = TICKS;
+    desc.tick_limit = (uint64_t)(TICKS * SECONDS);
     result = result ? result : knurl_loop_create(&desc, loop);
     return result ? result : knurl_loop_start(*loop);
 }

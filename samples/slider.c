@@ -39,7 +39,7 @@ static knurl_result play(knurl_scene *scene, knurl_loop *loop, knurl_effect effe
         const double nearest = floor(now.hip[0] / NOTCH + 0.5);
         if (!result && nearest != notch) {
             notch = nearest;
-            printf("notch %+3.0f   x %+6.1f mm   off the line %4.2f mm   force (%+5.2f %+5.2f %+5.2f) N\n", notch,
+            printf("notch %+3d   x %+6.1f mm   off the line %4.2f mm   force (%+5.2f %+5.2f %+5.2f) N\n", (int)notch,
                    1e3 * now.hip[0], 1e3 * hypot(now.hip[1], now.hip[2]), now.force[0], now.force[1], now.force[2]);
         }
         effects[WEIGHT].damping = fabs(now.hip[0]) > HEAVY ? 6.0 : 0.0; /* N s/m */

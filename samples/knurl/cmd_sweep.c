@@ -2,8 +2,8 @@
 #include "os.h"
 #include "sweep.h"
 #include "tool.h"
+#include "verify.h"
 
-#include <knurl/fake.h>
 #include <knurl/hip.h>
 
 #include <string.h>
@@ -14,17 +14,6 @@ static volatile sig_atomic_t interrupted;
 
 static void on_signal(int number) {
     interrupted = number;
-}
-
-/* The fake device's hand holds still; a real one is asked to. */
-static knurl_result hold_still(knurl_device *device, int is_fake) {
-    knurl_stroke_desc stroke;
-    knurl_stroke_desc_init(&stroke, sizeof stroke);
-    stroke.stroke = KNURL_STROKE_REST;
-    if (!is_fake) {
-        say(stderr, "Hold the grip as when you feel a surface, away from its ends. It hums for some two minutes.\n");
-    }
-    return is_fake ? knurl_fake_set_stroke(device, &stroke) : KNURL_OK;
 }
 
 static void print_summary(const sweep *s, uint32_t count, const char *name, int pretty) {
@@ -65,18 +54,20 @@ static int perform(const char *uri, const char *path, double rate, int fast, int
     static sweep result;
     out_file file;
     knurl_device *device = NULL;
-    const int is_fake = strncmp(uri, "fake", 4) == 0;
     if (out_open(&file, path)) { /* before somebody has held the grip for two minutes */
         return TOOL_FAILURE;
     }
     (void)knurl_device_zero_on_exit(0);
     os_on_interrupt(on_signal);
-    const knurl_result opened = knurl_device_open(uri, &device);
+    const knurl_result opened = verify_open(uri, &device);
     int code = TOOL_OK;
+    if (!opened && strncmp(uri, "fake", 4) != 0) {
+        say(stderr, "Hold the grip as when you feel a surface, away from its ends. It hums for some two minutes.\n");
+    }
     if (opened) {
         const int is_usage = opened == KNURL_ERROR_UNKNOWN || opened == KNURL_ERROR_ARGUMENT;
         code = tool_library_error(is_usage ? TOOL_USAGE : TOOL_FAILURE, "sweep: --device");
-    } else if (hold_still(device, is_fake) || sweep_run(device, rate, fast, &interrupted, &result)) {
+    } else if (sweep_run(device, rate, fast, &interrupted, &result)) {
         code = tool_library_error(interrupted ? TOOL_INTERRUPTED + interrupted : TOOL_FAILURE, "sweep");
     } else {
         code = write_out(&file, device, &result, pretty);

@@ -49,7 +49,7 @@ static int ask(verify *v, verify_wish wish, const char *sentence) {
 static const verify_person asked = {ask, NULL, NULL};
 static const verify_person told = {say_only, NULL, NULL};
 
-/* --- the reports: NAME.html, NAME.json, and NAME.csv if a response was measured --- */
+/* --- the reports: NAME.html, NAME.json, and NAME.csv if a response was measured; an older one is removed --- */
 
 enum { PAGE, DATA, RESPONSE, FILES };
 
@@ -77,6 +77,9 @@ static int write_files(const verify *v, out_file files[FILES], const char *uri) 
         sweep_write(&v->response, files[RESPONSE].stream, v->info.name);
         return out_keep(&files[RESPONSE]) ? TOOL_FAILURE : TOOL_OK;
     }
+    if (files[RESPONSE].partial && !v->response_path) { /* which may be that file */
+        (void)os_remove(files[RESPONSE].path);
+    }
     return TOOL_OK;
 }
 
@@ -98,7 +101,13 @@ static int report(const verify *v, const wishes *w, out_file files[FILES]) {
     if (w->out && write_files(v, files, w->uri)) {
         return TOOL_FAILURE;
     }
-    return interrupted ? TOOL_INTERRUPTED + interrupted : verify_count(v, VERIFY_FAIL) > 0 ? TOOL_CHECK : TOOL_OK;
+    if (interrupted) {
+        return TOOL_INTERRUPTED + interrupted;
+    }
+    if (verify_count(v, VERIFY_NOT_MEASURED) == v->finding_count) {
+        return tool_error(TOOL_FAILURE, "verify: nothing was measured; the reports have the reasons");
+    }
+    return verify_count(v, VERIFY_FAIL) > 0 ? TOOL_CHECK : TOOL_OK;
 }
 
 static int perform(verify *v, const wishes *w) {

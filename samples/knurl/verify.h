@@ -16,6 +16,11 @@
 #define VERIFY_LAST_HZ  300.0  /* Hz: up to here --response needs a response */
 #define VERIFY_FINDINGS 48
 
+/** The fake device's hand, and so that of predictions. N/m and N s/m */
+#define VERIFY_HAND_STIFFNESS 700.0
+#define VERIFY_HAND_DAMPING   5.0
+#define VERIFY_HAND           "a hand of 700 N/m and 5 N s/m"
+
 enum { VERIFY_PASS, VERIFY_FAIL, VERIFY_NOT_MEASURED };
 
 typedef struct verify_finding {
@@ -92,7 +97,8 @@ struct verify {
     uint64_t count;  /* of rows */
     double times[2]; /* s: of the first and the last tick */
     knurl_loop_stats stats;
-    int32_t fault; /* that ended it; 0: no fault */
+    int32_t fault;   /* that ended it; 0: no fault */
+    const char *why; /* the last verify_play() did not get to its end; or null */
 
     verify_finding findings[VERIFY_FINDINGS];
     int finding_count;

@@ -54,7 +54,7 @@ const char *verify_wall(verify *v) {
     const char *why = verify_compare(v, verify_ask_to_hold(v), measure_wall, &stiffest, &expected);
     if (!why) {
         (void)verify_find(v, "stiffest calm wall", stiffest, "N/m", 0.5 * expected, HUGE_VAL,
-                          "half of a simulation with its data, in a hand of 700 N/m and 5 N s/m",
+                          "half of a simulation with its data, in " VERIFY_HAND,
                           "it shakes at %.3g N/m, predicted was %.3g: more delay or mass, or less friction, than Knurl "
                           "knows, or a very loose hand",
                           fmax(FIRST_WALL, stiffest * STEEPER), expected);

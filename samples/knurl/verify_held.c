@@ -21,7 +21,8 @@ const char *verify_rate(verify *v) {
     (void)knurl_device_get_status(v->device, &status);
     const double took = v->times[1] - v->times[0];
     const double ticks = (double)v->stats.ticks;
-    const char *priority = v->stats.realtime ? "" : "; it lacks real-time priority";
+    const int is_realtime = v->stats.realtime && (v->stats.io_realtime || status.exchanges == 0);
+    const char *priority = is_realtime ? "" : "; it lacks real-time priority";
     (void)verify_find(v, "ticks a second", v->seconds ? (ticks - 1.0) / took : NAN, "Hz", 999.0, 1001.0,
                       "the rate that the loop was asked for",
                       v->seconds ? "the loop cannot keep its rate" : "time is simulated");

@@ -149,11 +149,11 @@ static double chart_y(double gain) {
     return 5.0 + fmin(HEIGHT - 30.0, fmax(0.0, y));
 }
 
-/* Its data in a hand of 700 N/m and 5 N s/m, each force held for a tick. */
+/* Its data in the hand of predictions, each force held for a tick. */
 static double plant_gain(const knurl_device_info *i, double hz) {
     const double w = 2.0 * PI * hz;
     const double held = PI * hz / VERIFY_RATE;
-    return sin(held) / held / hypot(700.0 - i->mass * w * w, (5.0 + i->viscous) * w);
+    return sin(held) / held / hypot(VERIFY_HAND_STIFFNESS - i->mass * w * w, (VERIFY_HAND_DAMPING + i->viscous) * w);
 }
 
 static void write_response(const verify *v, FILE *stream) {
@@ -185,8 +185,7 @@ static void write_response(const verify *v, FILE *stream) {
         say(stream, "<circle r=\"3\" fill=\"var(--accent)\" cx=\"%.1f\" cy=\"%.1f\"/>\n",
             chart_x(v->response.rows[i].hz), chart_y(v->response.rows[i].gain));
     }
-    say(stream,
-        "</svg><p>Points: the response. Dashed: its mass and viscous friction in a hand of 700 N/m and 5 N s/m.</p>\n");
+    say(stream, "</svg><p>Points: the response. Dashed: its mass and viscous friction in " VERIFY_HAND ".</p>\n");
 }
 
 static void write_steps(const verify *v, FILE *stream) {

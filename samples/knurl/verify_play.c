@@ -96,9 +96,10 @@ const char *verify_play(verify *v, double seconds, verify_shape *shape) {
             v->is_wrong = "a motor is backwards, so that it gets no force until the device is opened again";
         }
     }
+    v->why = why_not(v, failed);
     knurl_loop_destroy(v->loop);
     v->loop = NULL;
-    return why_not(v, failed);
+    return v->why;
 }
 
 knurl_result verify_open(const char *uri, knurl_device **device) {
@@ -139,10 +140,10 @@ const char *verify_compare(verify *v, const char *why, double (*measure)(verify 
                            double *expected) {
     *measured = why ? NAN : measure(v);
     const int axis = v->axis;
-    *expected = why ? NAN : verify_predict(v, measure);
+    if (isnan(*measured)) {
+        return why ? why : v->why ? v->why : "the grip hardly moved, or positions were missing";
+    }
+    *expected = verify_predict(v, measure);
     v->axis = axis;
-    return why                ? why
-           : isnan(*measured) ? "the grip hardly moved, or positions were missing"
-           : isnan(*expected) ? "a simulation with its data failed"
-                              : NULL;
+    return isnan(*expected) ? "a simulation with its data failed" : NULL;
 }

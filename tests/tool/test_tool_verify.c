@@ -49,6 +49,23 @@ TEST(a_response_that_ends_early_is_no_file) {
     assert_int_equal(files_that_end("coarse.json"), 1);
 }
 
+/* A response of an earlier run would be taken for this one's; a file that was given is not touched. */
+TEST(an_older_response_goes_and_nothing_measured_is_a_failure) {
+    const char *old = tool_path("again.csv");
+    write_text(old, "# knurl response 1\nfrequency_hz,gain\n20,1\n500,0.5\n");
+    process p = RUN_TOOL("verify", "--simulate", "--only", "response", "--response", old, "--out", tool_path("again"));
+    assert_int_equal(p.exit_code, 0);
+    process_free(&p);
+    assert_int_equal(files_that_end("again.csv"), 1);
+    p = RUN_TOOL("verify", "--simulate", "--only", "scale", "--out", tool_path("again"));
+    assert_int_equal(p.exit_code, 1);
+    assert_non_null(strstr(p.out, "no mass was given: --mass KG"));
+    assert_non_null(strstr(p.err, "verify: nothing was measured"));
+    process_free(&p);
+    assert_int_equal(files_that_end("again.csv"), 0);
+    assert_int_equal(files_that_end("again.html"), 1);
+}
+
 TEST(a_file_takes_the_place_of_the_sweep) {
     const char *good = tool_path("good.csv");
     write_text(good, "# knurl response 1\nfrequency_hz,gain\n20,1\n500,0.5\n");
