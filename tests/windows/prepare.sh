@@ -6,10 +6,10 @@ dir=$(cd "$here/../.." && pwd)/build/windows
 prefix=$dir/prefix
 mkdir -p "$prefix/include" "$prefix/share/cmake"
 
-# Header-only C++ libraries, without the host's C headers beside them.
+# Header-only libraries, without the host's C headers beside them.
 headers() {
     local name
-    for name in tiny_gltf.h nlohmann glm; do
+    for name in tiny_gltf.h nlohmann glm jsmn.h; do
         ln -sfn "/usr/include/$name" "$prefix/include/$name"
     done
     for name in nlohmann_json glm; do # copied: these find their headers relative to themselves

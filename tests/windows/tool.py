@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 """knurl.exe under wine beside this machine's own knurl: the same bytes, in a folder whose name is in no one code page.
-usage: tool.py KNURL_EXE LIBRARIES KNURL ASSETS WINE_PREFIX [CFGMGR32 EMULATE]
+usage: tool.py KNURL_EXE LIBRARIES KNURL ASSETS WINE_PREFIX [[CFGMGR32] EMULATE]
 KNURL_EXE: beside it knurl_study.exe and the DLLs. LIBRARIES: a folder of those that drivers load.
 With CFGMGR32 (cfgmgr32.c) and EMULATE (tests/device/rawhid/emulate_rawhid.c) only the raw HID driver is tried, on an emulated
-device. Nothing else may use the wine prefix meanwhile. Exit code 77: KNURL, or EMULATE, is missing.
+device; with EMULATE alone (tests/device/inverse3/emulate_inverse3.c) only the Inverse3, on an emulated service. Nothing else may use the wine prefix meanwhile. Exit code 77: KNURL, or EMULATE, is missing.
 SPDX-License-Identifier: MIT"""
 import json
 import math
@@ -205,9 +205,47 @@ class Emulated(Home):
         self.assertGreater(summary["force_max_n"], 0.1)  # 400 N/m, a fraction of a millimetre deep
 
 
+class Service(Home):
+    """Haply's service on this machine's own loopback, which wine shares; knurl.exe reaches it by WinHTTP."""
+
+    def felt(self, fault, seconds):
+        return Run(self.home, [STAND_IN[0], fault, "wine", self.exe, "run", "plate_1d.glb", "--device",
+                               "inverse3:049D?port=PORT", "--seconds", seconds]).end()
+
+    def test_a_plate_is_felt_with_an_inverse3(self):
+        for _ in range(4):  # on a busy machine the emulation stalls, and the device is lost
+            done = self.felt("two", "1")
+            if done.code == 0:
+                break
+        self.assertEqual(done.code, 0, done.err)
+        summary = json.loads(done.out)
+        self.assertIn("Haply Inverse3", summary["device"])
+        self.assertGreater(summary["contact_s"], 0.1)
+        self.assertGreater(summary["force_max_n"], 0.1)
+
+    def test_faults_of_the_service_are_told(self):
+        """After 0.1 s. A machine that is too busy to answer within 5 ms is silent, and asked again."""
+        for fault, word in (("unplugged", b"lost"), ("unpowered", b"its power supply is unplugged"), ("closed", b"lost"),
+                            ("mute", b"silent"), ("late", b"silent"), ("garbage", b"corrupt"), ("long", b"corrupt")):
+            for _ in range(5):
+                done = self.felt(fault, "0.6")
+                if word in done.err + done.out:
+                    break
+            self.assertIn(word, done.err + done.out, fault)
+
+    def test_a_service_that_is_absent_or_another_program_is_named(self):
+        for fault, word in (("old", b"3.5 or newer"), ("strange", b"is not the Haply Inverse Service")):
+            done = self.felt(fault, "1")
+            self.assertEqual(done.code, 1)
+            self.assertIn(word, done.err)
+        done = Run(self.home, ["wine", self.exe, "run", "plate_1d.glb", "--device", "inverse3:?port=9"]).end()
+        self.assertEqual(done.code, 1)
+        self.assertIn(b"does not answer at localhost:9", done.err)
+
+
 if __name__ == "__main__":
     for needed in [NATIVE, *STAND_IN]:
         if not needed.exists():
             print(f"skipped: there is no {needed}")
             sys.exit(77)
-    unittest.main(argv=[sys.argv[0], "Emulated" if STAND_IN else "Tool"])
+    unittest.main(argv=[sys.argv[0], ["Tool", "Service", "Emulated"][len(STAND_IN)]])

@@ -13,7 +13,7 @@ const knurl_inverse3_service *knurl_inverse3_websocket(char *why, size_t why_siz
     return NULL;
 }
 
-#else
+#elif !defined(_WIN32) /* channel_winhttp.c */
 
 #include "base/base.h"
 #include "device/dynlib.h"
@@ -204,9 +204,6 @@ static int receive(void *self, int milliseconds, knurl_inverse3_message *message
 /* libwebsockets makes the process ignore SIGPIPE, which is the host's decision. It is not needed, because sockets use
  * MSG_NOSIGNAL. */
 static struct lws_context *make_context(const struct lws_context_creation_info *info) {
-#if defined(_WIN32)
-    return lib.create_context(info);
-#else
     struct sigaction was;
     const int is_known = sigaction(SIGPIPE, NULL, &was) == 0;
     struct lws_context *made = lib.create_context(info);
@@ -214,7 +211,6 @@ static struct lws_context *make_context(const struct lws_context_creation_info *
         (void)sigaction(SIGPIPE, &was, NULL);
     }
     return made;
-#endif
 }
 
 static int start(websocket *w, int port) {
@@ -274,16 +270,14 @@ static int connect_to(void *user, int port, knurl_inverse3_channel *channel, cha
 #define SONAME (12 + LWS_LIBRARY_VERSION_MAJOR + LWS_LIBRARY_VERSION_MINOR) /* 4.0 has 16, 4.1 17, 4.2 18, 4.3 19 */
 
 static int load(char *why, size_t why_size) {
-    char file[32] = "websockets.dll";
+    char file[32];
     char version[16];
     const char *const files[] = {file};
     static uint32_t state;
 #define FUNCTION(name) {"lws_" #name, &lib.name},
     static const knurl_dynlib_function functions[] = {FUNCTIONS(FUNCTION)};
 #undef FUNCTION
-#if !defined(_WIN32)
     (void)snprintf(file, sizeof file, "libwebsockets.so.%d", SONAME);
-#endif
     if (!knurl_dynlib_load(&state, files, 1, functions, sizeof functions / sizeof *functions, why, why_size)) {
         return 0;
     }
