@@ -4,7 +4,7 @@
 #define KNURL_UNITY_LAYOUT_H
 /* clang-format off */
 
-#define KNURL_UNITY_INTERFACE "c0013added8222e3"
+#define KNURL_UNITY_INTERFACE "64f41d53568b6d98"
 
 /** The mirrored structs, as C# lays them out: STRUCT(type, bytes), FIELD(type, field, name in C#, offset, bytes). */
 #define KNURL_UNITY_LAYOUT(STRUCT, FIELD) \
@@ -350,42 +350,42 @@
     FIELD(knurl_loop_stats, paused, "paused", 116, 4) \
     FIELD(knurl_loop_stats, io_realtime, "io_realtime", 120, 4) \
     FIELD(knurl_loop_stats, reserved, "reserved", 124, 4) \
-    STRUCT(knurl_surface_info, 408) \
+    STRUCT(knurl_surface_info, 656) \
     FIELD(knurl_surface_info, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_surface_info, triangle_count, "triangle_count", 4, 4) \
     FIELD(knurl_surface_info, dropped_triangles, "dropped_triangles", 8, 4) \
     FIELD(knurl_surface_info, double_sided, "double_sided", 12, 4) \
-    FIELD(knurl_surface_info, name, "name", 16, 8) \
-    FIELD(knurl_surface_info, shape, "shape", 24, 8) \
-    FIELD(knurl_surface_info, model, "model", 32, 8) \
-    FIELD(knurl_surface_info, bytes, "bytes", 40, 8) \
-    FIELD(knurl_surface_info, bounds_min, "bounds_min", 48, 24) \
-    FIELD(knurl_surface_info, bounds_max, "bounds_max", 72, 24) \
-    FIELD(knurl_surface_info, anchor, "anchor", 96, 24) \
-    FIELD(knurl_surface_info, anchor_x, "anchor_x", 120, 24) \
-    FIELD(knurl_surface_info, anchor_normal, "anchor_normal", 144, 24) \
-    FIELD(knurl_surface_info, anchor_reach, "anchor_reach", 168, 32) \
-    FIELD(knurl_surface_info, stretch, "stretch", 200, 24) \
-    FIELD(knurl_surface_info, why, "why", 224, 8) \
-    FIELD(knurl_surface_info, model_error, "model_error", 232, 8) \
-    FIELD(knurl_surface_info, reversed_twins, "reversed_twins", 240, 4) \
-    FIELD(knurl_surface_info, turned_triangles, "turned_triangles", 244, 4) \
-    FIELD(knurl_surface_info, axis, "axis", 248, 24) \
-    FIELD(knurl_surface_info, stretch_y, "stretch_y", 272, 24) \
-    FIELD(knurl_surface_info, seam, "seam", 296, 8) \
-    FIELD(knurl_surface_info, touching_pairs, "touching_pairs", 304, 8) \
-    FIELD(knurl_surface_info, curved_triangles, "curved_triangles", 312, 4) \
-    FIELD(knurl_surface_info, bad_normals, "bad_normals", 316, 4) \
-    FIELD(knurl_surface_info, bulge, "bulge", 320, 8) \
-    FIELD(knurl_surface_info, coordinates, "coordinates", 328, 8) \
-    FIELD(knurl_surface_info, uneven, "uneven", 336, 8) \
-    FIELD(knurl_surface_info, projection_seams, "projection_seams", 344, 4) \
-    FIELD(knurl_surface_info, smooth, "smooth", 348, 4) \
-    FIELD(knurl_surface_info, edges, "edges", 352, 4) \
-    FIELD(knurl_surface_info, hard_edges, "hard_edges", 356, 4) \
-    FIELD(knurl_surface_info, facet_angle, "facet_angle", 360, 16) \
-    FIELD(knurl_surface_info, felt_angle, "felt_angle", 376, 16) \
-    FIELD(knurl_surface_info, uv_scale, "uv_scale", 392, 16) \
+    FIELD(knurl_surface_info, name, "name", 16, 256) \
+    FIELD(knurl_surface_info, shape, "shape", 272, 8) \
+    FIELD(knurl_surface_info, model, "model", 280, 8) \
+    FIELD(knurl_surface_info, bytes, "bytes", 288, 8) \
+    FIELD(knurl_surface_info, bounds_min, "bounds_min", 296, 24) \
+    FIELD(knurl_surface_info, bounds_max, "bounds_max", 320, 24) \
+    FIELD(knurl_surface_info, anchor, "anchor", 344, 24) \
+    FIELD(knurl_surface_info, anchor_x, "anchor_x", 368, 24) \
+    FIELD(knurl_surface_info, anchor_normal, "anchor_normal", 392, 24) \
+    FIELD(knurl_surface_info, anchor_reach, "anchor_reach", 416, 32) \
+    FIELD(knurl_surface_info, stretch, "stretch", 448, 24) \
+    FIELD(knurl_surface_info, why, "why", 472, 8) \
+    FIELD(knurl_surface_info, model_error, "model_error", 480, 8) \
+    FIELD(knurl_surface_info, reversed_twins, "reversed_twins", 488, 4) \
+    FIELD(knurl_surface_info, turned_triangles, "turned_triangles", 492, 4) \
+    FIELD(knurl_surface_info, axis, "axis", 496, 24) \
+    FIELD(knurl_surface_info, stretch_y, "stretch_y", 520, 24) \
+    FIELD(knurl_surface_info, seam, "seam", 544, 8) \
+    FIELD(knurl_surface_info, touching_pairs, "touching_pairs", 552, 8) \
+    FIELD(knurl_surface_info, curved_triangles, "curved_triangles", 560, 4) \
+    FIELD(knurl_surface_info, bad_normals, "bad_normals", 564, 4) \
+    FIELD(knurl_surface_info, bulge, "bulge", 568, 8) \
+    FIELD(knurl_surface_info, coordinates, "coordinates", 576, 8) \
+    FIELD(knurl_surface_info, uneven, "uneven", 584, 8) \
+    FIELD(knurl_surface_info, projection_seams, "projection_seams", 592, 4) \
+    FIELD(knurl_surface_info, smooth, "smooth", 596, 4) \
+    FIELD(knurl_surface_info, edges, "edges", 600, 4) \
+    FIELD(knurl_surface_info, hard_edges, "hard_edges", 604, 4) \
+    FIELD(knurl_surface_info, facet_angle, "facet_angle", 608, 16) \
+    FIELD(knurl_surface_info, felt_angle, "felt_angle", 624, 16) \
+    FIELD(knurl_surface_info, uv_scale, "uv_scale", 640, 16) \
     STRUCT(knurl_surface_point, 72) \
     FIELD(knurl_surface_point, struct_size, "struct_size", 0, 4) \
     FIELD(knurl_surface_point, hint, "hint", 4, 4) \

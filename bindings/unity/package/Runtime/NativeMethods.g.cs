@@ -519,7 +519,7 @@ namespace Knurl
         public uint triangle_count;
         public uint dropped_triangles;
         public uint double_sided;
-        public byte* name;
+        public fixed byte name[256];
         public byte* shape;
         public byte* model;
         public ulong bytes;
@@ -736,7 +736,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>The result of knurl_unity_interface() of the library that this file was generated for.</summary>
-        internal const string Interface = "c0013added8222e3";
+        internal const string Interface = "64f41d53568b6d98";
 
         internal const string Version = "0.3.0";
 
@@ -813,6 +813,7 @@ namespace Knurl
         internal const int KNURL_GAINS = 75;
         internal const int KNURL_EFFECTS_MAX = 8;
         internal const int KNURL_PATH_ROWS_MAX = 65536;
+        internal const int KNURL_NAME_SIZE = 256;
         internal const double KNURL_FAR = 1000000.0;
         internal const double KNURL_STRETCH_MAX = 2.0;
         internal const int KNURL_SESSION_HISTORY = 8192;
@@ -1292,7 +1293,7 @@ namespace Knurl
         internal static extern int knurl_scene_find_surface(knurl_scene* scene, byte* name, ulong* surface);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int knurl_scene_get_surface_name(knurl_scene* scene, ulong surface, byte** name);
+        internal static extern int knurl_scene_get_surface_name(knurl_scene* scene, ulong surface, byte* name);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void knurl_surface_info_init(knurl_surface_info* info, uint size);
