@@ -8,7 +8,7 @@ FUZZ_PACKAGES=(clang llvm libclang-rt-dev)
 PLOT_PACKAGES=(python3 python3-numpy python3-matplotlib)
 WEB_PACKAGES=(emscripten node-acorn libtinygltf-dev nlohmann-json3-dev libglm-dev)
 WINDOWS_PACKAGES=(gcc-mingw-w64-x86-64-posix g++-mingw-w64-x86-64-posix wine wine64 xz-utils)
-UNITY_PACKAGES=(mono-mcs mono-runtime libmono-cil-dev nunit-console libnunit-cil-dev)
+UNITY_PACKAGES=(mono-mcs mono-runtime libmono-cil-dev nunit-console libnunit-cil-dev glslang-tools)
 PYTHON_PACKAGES=(python3-cffi python3-numpy python3-setuptools python3-wheel python3-pip python3-venv
     python3-pandas python3-matplotlib mypy)
 NUMBERS_PACKAGES=(clang gcc-aarch64-linux-gnu libc6-dev-arm64-cross gcc-arm-linux-gnueabihf libc6-dev-armhf-cross qemu-user)

@@ -33,10 +33,14 @@ IMPORTERS = {
     ".dll": "PluginImporter",
     ".dylib": "PluginImporter",
     ".unity": "DefaultImporter",
+    ".shader": "ShaderImporter",
+    ".hlsl": "ShaderIncludeImporter",
 }
 BODIES = {
     "MonoImporter": "  externalObjects: {}\n  serializedVersion: 2\n  defaultReferences: []\n  executionOrder: 0\n"
     "  icon: {instanceID: 0}\n",
+    "ShaderImporter": "  externalObjects: {}\n  defaultTextures: []\n  nonModifiableTextures: []\n"
+    "  preprocessorOverride: 0\n",
     "NativeFormatImporter": "  externalObjects: {}\n  mainObjectFileID: 11400000\n",
 }
 PLAIN_BODY = "  externalObjects: {}\n"

@@ -21,6 +21,7 @@ namespace Knurl.Editing
             internal Mesh Mesh;
             internal KnurlGrating Grating;
             internal long Version;
+            internal int Made;
             internal readonly Stripes Stripes = new Stripes();
             internal Vector3[] Segments;
             internal int Every;
@@ -81,13 +82,15 @@ namespace Knurl.Editing
             Stripes stripes = drawing.Stripes;
             Matrix4x4 place = surface.transform.localToWorldMatrix;
             bool isSame = drawing.Mesh == mesh && drawing.Grating == grating && drawing.Version == grating.Version
-                && stripes.Axis == surface.Axis && stripes.ToWorld == place;
+                && drawing.Made == surface.Made && stripes.ToWorld == place;
             if (!isSame)
             {
                 Read(drawing, mesh);
                 drawing.Grating = grating;
                 drawing.Version = grating.Version;
+                drawing.Made = surface.Made;
                 stripes.ToWorld = place;
+                stripes.Layout = new SurfaceLayout(surface);
                 stripes.Axis = surface.Axis;
                 stripes.SpatialFrequency = grating.SpatialFrequency;
                 stripes.Orientation = grating.Orientation;
@@ -101,24 +104,8 @@ namespace Knurl.Editing
             if (drawing.Mesh != mesh)
             {
                 drawing.Mesh = mesh;
-                drawing.Stripes.Vertices = mesh.vertices;
-                drawing.Stripes.Tangents = mesh.tangents;
-                drawing.Stripes.Uvs = mesh.uv;
-                drawing.Stripes.Triangles = TrianglesOf(mesh);
+                drawing.Stripes.Read(mesh);
             }
-        }
-
-        static int[] TrianglesOf(Mesh mesh)
-        {
-            var all = new List<int>();
-            for (int part = 0; part < mesh.subMeshCount; part++)
-            {
-                if (mesh.GetTopology(part) == MeshTopology.Triangles)
-                {
-                    all.AddRange(mesh.GetTriangles(part));
-                }
-            }
-            return all.ToArray();
         }
 
         /// <summary>Sets Every to 0 if there are too many triangles.</summary>

@@ -127,12 +127,17 @@ namespace Knurl
         /// <summary>The triangles of a surface; 0 if it is not in the scene.</summary>
         internal int CountTriangles(KnurlSurface surface)
         {
-            int i = IndexOf(surface);
             knurl_surface_info info;
-            NativeMethods.knurl_surface_info_init(&info, (uint)sizeof(knurl_surface_info));
-            return i < 0 || followers[i].id == 0
-                || NativeMethods.knurl_scene_get_surface_info(scene, followers[i].id, &info) != NativeMethods.KNURL_OK
-                ? 0 : (int)info.triangle_count;
+            return Describe(surface, &info) ? (int)info.triangle_count : 0;
+        }
+
+        /// <summary>False if it is not in the scene.</summary>
+        internal bool Describe(KnurlSurface surface, knurl_surface_info* info)
+        {
+            int i = IndexOf(surface);
+            NativeMethods.knurl_surface_info_init(info, (uint)sizeof(knurl_surface_info));
+            return i >= 0 && followers[i].id != 0
+                && NativeMethods.knurl_scene_get_surface_info(scene, followers[i].id, info) == NativeMethods.KNURL_OK;
         }
 
         /// <summary>A mesh has changed.</summary>

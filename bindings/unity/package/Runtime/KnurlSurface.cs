@@ -216,6 +216,20 @@ namespace Knurl
             return warnings.ToArray();
         }
 
+        /// <summary>Metres along the surface for each unit of u and v, at the object's scale, as ridges are laid out: the mean by
+        /// area, without triangles whose UVs are much larger or smaller than most. (0, 0) if the ridges do not follow UVs, or it
+        /// cannot be felt. Reads the mesh at each call.</summary>
+        public Vector2 GetUvScale()
+        {
+            Mesh mesh;
+            if (grating == null || FindMesh(out mesh) != null)
+            {
+                return Vector2.zero;
+            }
+            var layout = new SurfaceLayout(this);
+            return new Vector2((float)layout.UScale, (float)layout.VScale);
+        }
+
         /// <summary>Finds the mesh that is felt, or null. Returns why it cannot be felt, or null if it can.</summary>
         internal string FindMesh(out Mesh mesh)
         {

@@ -13,6 +13,7 @@ namespace Knurl
         internal const string Grating = Page == "" ? "" : Page + "#knurlgrating";
         internal const string Rumble = Page == "" ? "" : Page + "#knurlrumble";
         internal const string Sound = Page == "" ? "" : Page + "#knurlsound";
+        internal const string Stripes = Page == "" ? "" : Page + "#knurlstripes";
         internal const string Surface = Page == "" ? "" : Page + "#knurlsurface";
     }
 }

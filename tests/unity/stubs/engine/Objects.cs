@@ -287,6 +287,7 @@ namespace UnityEngine
             return default(T);
         }
 
+        public int layer { get; set; }
         public T[] GetComponentsInChildren<T>() { return GetComponentsInChildren<T>(false); }
 
         public T[] GetComponentsInChildren<T>(bool includeInactive)
@@ -401,6 +402,35 @@ namespace UnityEngine
         public Shader shader { get; set; }
         public Color color { get; set; }
         public Texture mainTexture { get; set; }
+
+        /// For tests: what SetColor was given.
+        public readonly Dictionary<string, Color> Colors = new Dictionary<string, Color>();
+        public void SetColor(string name, Color value) { Colors[name] = value; }
+    }
+
+    /// Records what is drawn.
+    public static class Graphics
+    {
+        public sealed class Drawing
+        {
+            public Mesh Mesh;
+            public Matrix4x4 Matrix;
+            public Material Material;
+        }
+
+        public static readonly List<Drawing> Drawn = new List<Drawing>();
+
+        public static void DrawMesh(Mesh mesh, Matrix4x4 matrix, Material material, int layer, Camera camera, int submeshIndex,
+            object properties, Rendering.ShadowCastingMode castShadows, bool receiveShadows)
+        {
+            Drawn.Add(new Drawing { Mesh = mesh, Matrix = matrix, Material = material });
+        }
+    }
+
+    /// Shaders only, by their names.
+    public static class Resources
+    {
+        public static T Load<T>(string path) where T : Object { return (T)(Object)new Shader { name = path }; }
     }
 
     /// Of every name there is one, without properties.
@@ -419,6 +449,8 @@ namespace UnityEngine
         {
             public virtual Shader defaultShader { get { return null; } }
         }
+
+        public enum ShadowCastingMode { Off, On }
 
         public static class GraphicsSettings
         {

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+using System;
+using System.Collections.Generic;
+using UnityEngine;
+using UnityEngine.Rendering;
+
+namespace Knurl
+{
+    /// <summary>Draws the ridges of the <see cref="KnurlSurface"/> on this object over its mesh, at the places where they are
+    /// felt: in the Game view and in built games, in the built-in pipeline, URP and HDRP. Main thread.</summary>
+    [AddComponentMenu("Knurl/Knurl Stripes")]
+    [HelpURL(Manual.Stripes)]
+    [ExecuteAlways]
+    [DisallowMultipleComponent]
+    [RequireComponent(typeof(KnurlSurface))]
+    public sealed class KnurlStripes : MonoBehaviour
+    {
+        const int MostTriangles = 200000;
+
+        [SerializeField, Tooltip("Colour over ridges; its alpha says how much of the mesh it covers.")]
+        Color ridge = new Color(1f, 0.95f, 0.85f, 0.2f);
+
+        [SerializeField, Tooltip("Colour over grooves.")]
+        Color groove = new Color(0.03f, 0.04f, 0.08f, 0.65f);
+
+        readonly Stripes stripes = new Stripes();
+        KnurlSurface surface;
+        Material material;
+        Mesh overlay;
+        Mesh seen; // and the rest: as of the overlay
+        KnurlGrating seenGrating;
+        long seenVersion;
+        int seenMade;
+        double[] seenRest;
+
+        /// <summary>Colour over ridges, with alpha.</summary>
+        public Color Ridge
+        {
+            get { return ridge; }
+            set { ridge = value; }
+        }
+
+        /// <summary>Colour over grooves, with alpha.</summary>
+        public Color Groove
+        {
+            get { return groove; }
+            set { groove = value; }
+        }
+
+        void LateUpdate()
+        {
+            Mesh mesh;
+            surface = surface == null ? GetComponent<KnurlSurface>() : surface;
+            if (surface.Grating == null || surface.FindMesh(out mesh) != null || !FindMaterial())
+            {
+                return;
+            }
+            if (HasChanged(mesh))
+            {
+                Lay(mesh);
+            }
+            material.SetColor("_Ridge", ridge);
+            material.SetColor("_Groove", groove);
+            Graphics.DrawMesh(overlay, transform.localToWorldMatrix, material, gameObject.layer, null, 0, null,
+                ShadowCastingMode.Off, false);
+        }
+
+        bool FindMaterial()
+        {
+            Shader shader = material == null ? Resources.Load<Shader>("KnurlStripes") : null;
+            if (shader != null)
+            {
+                material = new Material(shader) { hideFlags = HideFlags.HideAndDontSave };
+            }
+            return material != null;
+        }
+
+        unsafe bool HasChanged(Mesh mesh)
+        {
+            KnurlGrating grating = surface.Grating;
+            knurl_session_pose pose;
+            double* rows = stackalloc double[12];
+            Matrix4x4 place = transform.localToWorldMatrix;
+            Axes.ToScene(&place, rows);
+            if (Library.Check() != null || NativeMethods.knurl_session_split_pose(rows, &pose) == 0)
+            {
+                return false;
+            }
+            fixed (double* rest = seenRest)
+            {
+                return overlay == null || seen != mesh || seenGrating != grating || seenVersion != grating.Version
+                    || seenMade != surface.Made || NativeMethods.knurl_session_same_rest(pose.rest, rest) == 0;
+            }
+        }
+
+        void Lay(Mesh mesh)
+        {
+            KnurlGrating grating = surface.Grating;
+            stripes.Layout = new SurfaceLayout(surface);
+            stripes.Read(mesh);
+            stripes.ToWorld = transform.localToWorldMatrix;
+            stripes.Axis = surface.Axis;
+            stripes.SpatialFrequency = grating.SpatialFrequency;
+            stripes.Orientation = grating.Orientation;
+            seen = mesh;
+            seenGrating = grating;
+            seenVersion = grating.Version;
+            seenMade = surface.Made;
+            seenRest = stripes.Layout.Rest;
+            var places = new List<Vector3>();
+            var cycles = new List<Vector2>();
+            if (stripes.Triangles.Length <= 3 * MostTriangles)
+            {
+                stripes.Fill(places, cycles);
+            }
+            var indices = new int[places.Count];
+            for (int i = 0; i < indices.Length; i++)
+            {
+                indices[i] = i;
+            }
+            overlay = overlay == null ? new Mesh { name = "Knurl stripes", hideFlags = HideFlags.HideAndDontSave } : overlay;
+            overlay.Clear();
+            overlay.indexFormat = indices.Length > ushort.MaxValue ? IndexFormat.UInt32 : IndexFormat.UInt16;
+            overlay.vertices = places.ToArray();
+            overlay.uv = cycles.ToArray();
+            overlay.SetIndices(indices, MeshTopology.Triangles, 0);
+        }
+
+        void OnDestroy()
+        {
+            DestroyImmediate(overlay);
+            DestroyImmediate(material);
+        }
+    }
+}
