@@ -230,6 +230,7 @@ package) # a user's download, in an empty project
     mkdir -p "$project"
     package=${KNURL_GODOT_PACKAGE:-$project.zip} # one that is to be shipped, or one of this build's
     [ -n "${KNURL_GODOT_PACKAGE:-}" ] || "$root/bindings/godot/package.sh" "$package" "$library"
+    /usr/bin/python3 -B "$here/layout.py" "$package" "$root/bindings/godot"
     (cd "$project" && cmake -E tar xf "$package")
     settle_project
     play 120 "${headless[@]}" --path . --import

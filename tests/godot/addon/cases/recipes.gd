@@ -1,6 +1,6 @@
 extends SceneTree
 ## Every recipe of the sample runs for a moment, and its text says what happens there.
-## With an argument DIR, after "--", each is drawn and its picture saved there.
+## With an argument DIR, after "--", each is drawn and its picture saved there, and a film of the tutorial.
 
 const SECONDS := 5.0  # at most, until a text is right
 const STROKE := 2.5  # s: more than the simulated hand takes from end to end and back
@@ -16,6 +16,7 @@ func _initialize() -> void:
 
 
 func play() -> void:
+	await tutorial()
 	await show_recipe("meter")
 	await says("^[0-9.]+ of [0-9.]+ N, [1-9][0-9]* mm/s, [1-9][0-9]* ridges", "the meters move")
 	await end("meter")
@@ -113,6 +114,47 @@ func play() -> void:
 	await says("^[1-9][0-9]* Hz at [1-9][0-9]* %", "the motor plays the ridges")
 	await end("vr_hand")
 	checks.finish(self)
+
+
+## Its steps, with a film of them.
+func tutorial() -> void:
+	stage = (load("res://recipes/tutorial.tscn") as PackedScene).instantiate()
+	root.add_child(stage)
+	device = stage.get_node("KnurlDevice")
+	film()
+	await says("^1 of 5", "a mesh")
+	checks.equal(stage.find_children("*", "KnurlSurface", true, false).size(), 0, "surfaces in the first step")
+	await next("^2 of 5", "a surface")
+	checks.check(not device.running, "and no device yet")
+	await next("^3 of 5", "a device")
+	await until(func() -> bool: return device.in_contact)
+	checks.check(device.in_contact, "whose hand touches the surface")
+	await next("^4 of 5", "a grid")
+	checks.equal(device.get_touched_surface().grating.spatial_frequency, Vector2(250, 250), "the grating")
+	await next("^5 of 5.* [1-9][0-9]* ridges", "a signal")
+	await dwell()
+	await end("")
+
+
+func next(pattern: String, sentence: String) -> void:
+	await dwell()
+	press("ui_accept", true)
+	press("ui_accept", false)
+	await says(pattern, sentence)
+
+
+## For a reader of the film.
+func dwell() -> void:
+	if not OS.get_cmdline_user_args().is_empty():
+		await create_timer(2.5).timeout
+
+
+func film() -> void:
+	var count := 0
+	var filmed: Node = stage
+	while not OS.get_cmdline_user_args().is_empty() and is_instance_valid(filmed):
+		await picture("tutorial_%03d" % count)
+		count += 1
 
 
 ## The test moves the HIP.
