@@ -36,7 +36,7 @@ typedef struct websocket {
     /* atomics */
     uint32_t is_open, is_gone, is_sending;
     uint32_t count;    /* messages since the last call */
-    uint32_t to_close; /* handles that have not told that they are closed */
+    uint32_t to_close; /* handles whose end on_event() has yet to hear */
     uint32_t last_error;
 } websocket;
 
@@ -64,13 +64,16 @@ static winhttp_functions lib; /* null until loaded */
 
 /* --- on WinHTTP's threads --- */
 
+static void CALLBACK on_event(HINTERNET handle, DWORD_PTR context, DWORD what, void *info, DWORD size);
+
 static void end(websocket *w, DWORD error) {
     knurl_store_relaxed(&w->last_error, (uint32_t)error);
     knurl_store_release(&w->is_gone, 1u);
 }
 
 static void receive_more(websocket *w) {
-    const DWORD error = lib.WebSocketReceive(w->handles[UPGRADED], w->part, sizeof w->part, NULL, NULL);
+    HINTERNET handle = knurl_load_acquire(&w->handles[UPGRADED]); /* null: it is being closed */
+    const DWORD error = handle ? lib.WebSocketReceive(handle, w->part, sizeof w->part, NULL, NULL) : NO_ERROR;
     if (error != NO_ERROR) {
         end(w, error);
     }
@@ -99,12 +102,16 @@ static void take_part(websocket *w, const WINHTTP_WEB_SOCKET_STATUS *part) {
 }
 
 static void upgrade(websocket *w, HINTERNET request) {
-    w->handles[UPGRADED] = lib.WebSocketCompleteUpgrade(request, (DWORD_PTR)w);
-    if (!w->handles[UPGRADED]) {
+    (void)__atomic_fetch_add(&w->to_close, 1, __ATOMIC_ACQ_REL); /* before the handle exists: see close_channel() */
+    HINTERNET made = lib.WebSocketCompleteUpgrade(request, (DWORD_PTR)w);
+    if (!made) {
         end(w, GetLastError());
+        (void)__atomic_fetch_sub(&w->to_close, 1, __ATOMIC_ACQ_REL);
         return;
     }
-    (void)__atomic_fetch_add(&w->to_close, 1, __ATOMIC_ACQ_REL);
+    (void)lib.SetStatusCallback(made, on_event, WINHTTP_CALLBACK_FLAG_ALL_NOTIFICATIONS,
+                                0); /* if it is not inherited */
+    knurl_store_release(&w->handles[UPGRADED], made);
     knurl_store_release(&w->is_open, 1u);
     receive_more(w);
 }
@@ -146,18 +153,25 @@ static void CALLBACK on_event(HINTERNET handle, DWORD_PTR context, DWORD what, v
 
 /* --- a channel --- */
 
-static void close_channel(void *self) {
-    websocket *w = self;
+/* A connection that is upgraded just now gets its handle meanwhile. */
+static void close_handles(websocket *w) {
     for (int i = HANDLES; i-- > 0;) {
-        if (w->handles[i]) {
-            (void)lib.CloseHandle(w->handles[i]);
+        HINTERNET handle = __atomic_exchange_n(&w->handles[i], NULL, __ATOMIC_ACQ_REL);
+        if (handle) {
+            (void)lib.CloseHandle(handle);
         }
     }
+}
+
+static void close_channel(void *self) {
+    websocket *w = self;
+    close_handles(w);
     for (int ms = 0; knurl_load_acquire(&w->to_close) > 0; ms++) {
         if (ms == CLOSE_MS) {
             return; /* WinHTTP may still use it */
         }
         Sleep(1);
+        close_handles(w);
     }
     (void)CloseHandle(w->news);
     for (int i = 0; i < 3; i++) {
