@@ -1,6 +1,6 @@
 /* Loudness of a texture. The force also changes as the hand presses, so a change counts only if the height changes in
- * the same tick; an edge may take two ticks. A change is larger than that of a square wave with the same fundamental
- * where a method plays the fundamental alone, so it is scaled by the fourth root of the mean fourth power of the
+ * the same tick; an edge may take two ticks. If a method plays the fundamental alone, its changes
+ * are larger than those of the square wave, so they are scaled by the fourth root of the mean fourth power of the
  * height, which is A for a square wave of A and 0.997 A for its fundamental (4/pi (3/8)^(1/4)).
  * SPDX-License-Identifier: MIT */
 #include "audio/loudness.h"

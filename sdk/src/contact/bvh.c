@@ -14,7 +14,7 @@ typedef struct box {
     knurl_float4 min, max;
 } box;
 
-/* What is sorted: boxes, and their places in the caller's array. */
+/* Boxes to sort, and their indices in the caller's array. */
 typedef struct items {
     box *boxes;
     uint32_t *places;

@@ -16,7 +16,7 @@ static void face_of(const draft *d, uint32_t triangle, double normal[3]) {
     }
 }
 
-/* 1 if a swing goes on over its next edge. */
+/* 1 if no crease, boundary or flipped triangle ends a swing at its next edge. */
 static int goes_on(const draft *d, const knurl_swing *s) {
     const uint32_t across = d->mesh->opposite[corner_slot(s->over)];
     const uint32_t apex = across & KNURL_CORNER_MASK;

@@ -57,8 +57,8 @@ static int cross_edge(path *w, uint32_t k) {
     return 1;
 }
 
-/* Changes of the weights that bring the point below the HIP, if the surface went on as it is here. Returns 0 if they
- * are undefined. */
+/* Changes of the weights that bring the point below the HIP, if the surface continued with this curvature. Returns 0 if
+ * they are undefined. */
 static int find_step(const path *w, double step[3]) {
     const knurl_patch_point *at = &w->at;
     double across[3];

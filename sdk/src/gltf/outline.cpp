@@ -48,7 +48,8 @@ void check_asset(const Fields &root) {
     }
 }
 
-/// Runs a step for one tag. Returns whether it is good; a wrong one fails the load unless the caller wants to be told.
+/// Runs a step for one tag. Returns whether it is good; a wrong one fails the load, unless the caller has a
+/// callback for wrong tags.
 template <typename Step>
 bool is_good(const Budget &budget, const Step &step) {
     try {

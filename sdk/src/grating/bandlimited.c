@@ -78,8 +78,8 @@ static double mean(double from, double to) {
     return height > 1.0 ? 1.0 : height > -1.0 ? height : -1.0;
 }
 
-/* On a grid: the axis that crosses the most ridges (Eq. 12). If the other one takes over, the phase goes on from where
- * it is, in the direction in which it went: a cosine is the same backwards. */
+/* On a grid: the axis that crosses the most ridges (Eq. 12). If the other one takes over, the phase continues from its
+ * present value in its present direction: a cosine is the same backwards. */
 static void choose_axis(const knurl_grating *g, knurl_grating_state *s, const double velocity[2]) {
     const double *fs = g->spatial_frequency;
     const int32_t now = s->axis, other = 1 - s->axis;

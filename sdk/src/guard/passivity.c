@@ -5,16 +5,16 @@
 #include <string.h>
 
 /* A runaway: the HIP swings in and out of a wall, faster than hands do, repeatedly and as far each time,
- * and not because of a texture. The energy that a sampled wall gives is no criterion: near the limit it equals what
- * friction and hand absorb, and these are not known.
+ * and not because of a texture. Energy cannot decide it: near the limit, the energy
+ * that a sampled wall generates equals that absorbed by friction and the hand, which is unknown.
  *
  * Tuned in the stability laboratory on flat walls and gratings within the limits of the presets touch and falcon.
  * test_protection_grids.c counts, of 4528 cells: all 92 flat walls that run away (at 12 to 25 Hz) are stopped, and of
  * 208 gratings that run away 197; of 4013 calm cells 12 are softened, which swing by up to 0.42 mm more than they
  * should, and of 49 that shake by 0.5 to 1.3 mm 27. */
-#define LEAST   0.7e-3 /* m: a smaller swing ends a row; runaways swing by at least 0.84 mm, arrivals soon by less */
-#define PERIOD  0.12   /* s: a slower swing ends a row; hands tap and shake on purpose at up to 8 Hz */
-#define FORGETS 0.985  /* decay of the largest swing, per swing: a bounce that dies out is no row */
+#define LEAST   0.7e-3 /* m: a smaller swing ends a series; runaways swing by at least 0.84 mm, arrivals soon by less */
+#define PERIOD  0.12   /* s: a slower swing ends a series; hands tap and shake on purpose at up to 8 Hz */
+#define FORGETS 0.985  /* decay of the largest swing, per swing: a bounce that dies out does not count */
 #define AGAIN   0.9    /* of the largest: a quantum of 0.06 mm is a tenth of the smallest swing */
 #define ROW     4      /* swings: as many may be the arrival of a hand */
 #define ENOUGH  24e-6  /* m^2: 4 swings of 2.5 mm, 17 of 1.2 mm */

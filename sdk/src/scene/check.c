@@ -146,7 +146,7 @@ static void check_visits(const inspection *on, const knurl_surface_data *surface
 #define CROWD       16
 #define CROWD_REACH 0.001
 
-/* Counting ends here: a check of each of thousands of meshes in one place is to end, too. */
+/* Counting ends here, which bounds the time to check each of thousands of meshes in one place. */
 #define CROWD_MAX 64
 
 static uint32_t is_mesh_near(const knurl_surface_data *surface, const double point[3], double now) {

@@ -64,8 +64,8 @@ static void add_workspace_velocity(const knurl_hip *hip, const double at[3], dou
     vec3_madd(velocity, zoom, from_origin, velocity);
 }
 
-/* Maps the device's position and velocity into the scene. A missing velocity is estimated in device axes, where the
- * quantisation is. Returns 0 if the position is invalid. */
+/* Maps the device's position and velocity into the scene. A missing velocity is estimated in device axes, because
+ * positions are quantised along these. Returns 0 if the position is invalid. */
 static int read_hip(knurl_hip *hip, const knurl_tick_input *input, knurl_tick_output *out) {
     const knurl_workspace *w = &hip->workspace;
     const double *velocity = input->velocity;

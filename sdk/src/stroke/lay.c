@@ -296,8 +296,8 @@ static int lay_circle(planner *l, knurl_stroke_desc *desc) {
     return 1;
 }
 
-/* At a tip, where many faces meet, a walker that is pressed in against one face leaves through another. Starts it
- * beside the tip. */
+/* Starts a walker beside a tip. At the tip itself many faces meet: pressed in against one, it would leave through
+ * another. */
 static int begin_beside(planner *l, double step, const double place[3], const double normal[3]) {
     double x[3];
     double y[3];

@@ -38,10 +38,10 @@ class Budget {
         step(done_);
     }
 
-    /** Whether the caller was told of a wrong tag, which is then left out. */
+    /** Reports a wrong tag to the caller's callback; false if there is none. A reported tag is skipped. */
     bool tell_wrong_tag(const char *message) const;
 
-    /** Tells the caller which file was read. */
+    /** Reports a file that was read to the caller's callback. */
     void tell_read(const std::filesystem::path &path) const;
 
   private:
