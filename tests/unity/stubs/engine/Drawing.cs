@@ -1,0 +1,152 @@
+// Test-only, never shipped: what is drawn.
+using System;
+using System.Collections.Generic;
+using System.Reflection;
+
+namespace UnityEngine
+{
+    public class Material : Object
+    {
+        public Material(Shader shader) { this.shader = shader; }
+        public Shader shader { get; set; }
+        public Color color { get; set; }
+        public Texture mainTexture { get; set; }
+
+        /// For tests: what SetColor was given.
+        public readonly Dictionary<string, Color> Colors = new Dictionary<string, Color>();
+        public void SetColor(string name, Color value) { Colors[name] = value; }
+    }
+
+    /// Records what is drawn.
+    public static class Graphics
+    {
+        public sealed class Drawing
+        {
+            public Mesh Mesh;
+            public Matrix4x4 Matrix;
+            public Material Material;
+        }
+
+        public static readonly List<Drawing> Drawn = new List<Drawing>();
+
+        public static void DrawMesh(Mesh mesh, Matrix4x4 matrix, Material material, int layer, Camera camera, int submeshIndex,
+            object properties, Rendering.ShadowCastingMode castShadows, bool receiveShadows)
+        {
+            Drawn.Add(new Drawing { Mesh = mesh, Matrix = matrix, Material = material });
+        }
+    }
+
+    /// Shaders only, by their names.
+    public static class Resources
+    {
+        public static T Load<T>(string path) where T : Object { return (T)(Object)new Shader { name = path }; }
+    }
+
+    /// Of every name there is one, without properties.
+    public class Shader : Object
+    {
+        public Rendering.ShaderPropertyType[] Properties = new Rendering.ShaderPropertyType[0]; // a test's
+        public static Shader Find(string name) { return new Shader { held = name }; }
+        public int GetPropertyCount() { return Properties.Length; }
+        public Rendering.ShaderPropertyType GetPropertyType(int propertyIndex) { return Properties[propertyIndex]; }
+    }
+
+    namespace Rendering
+    {
+        /// A pipeline names its shader; the built-in one is null.
+        public class RenderPipelineAsset : ScriptableObject
+        {
+            public virtual Shader defaultShader { get { return null; } }
+        }
+
+        public enum ShadowCastingMode { Off, On }
+
+        public static class GraphicsSettings
+        {
+            public static RenderPipelineAsset currentRenderPipeline { get; set; } // a test's; read-only in Unity
+        }
+    }
+
+    public class Texture : Object
+    {
+        public int width { get; protected set; }
+        public int height { get; protected set; }
+        public int anisoLevel { get; set; }
+    }
+
+    public enum TextureFormat
+    {
+        RGBA32 = 4
+    }
+
+    /// Keeps its pixels for tests.
+    public class Texture2D : Texture
+    {
+        public Color32[] Pixels;
+        public Texture2D() { }
+        public Texture2D(int width, int height, TextureFormat format, bool mipChain)
+        {
+            this.width = width;
+            this.height = height;
+        }
+
+        public void SetPixels32(Color32[] colors)
+        {
+            if (colors.Length != width * height)
+            {
+                throw new UnityException("SetPixels32 called with invalid number of pixels in the array");
+            }
+            Pixels = colors;
+        }
+
+        public void Apply() { }
+        public static Texture2D whiteTexture { get { return new Texture2D(); } }
+    }
+
+    /// Faithful: sharedMaterials is a copy. Not: bounds, which a test sets; `material` is the shared one, in Unity a
+    /// copy if another renderer has it, too.
+    public class Renderer : Component
+    {
+        Material[] materials = { new Material(new Shader()) };
+        bool shown = true;
+        Bounds box;
+
+        public bool enabled
+        {
+            get { Living(); return shown; }
+            set { Living(); shown = value; }
+        }
+
+        public Material[] sharedMaterials
+        {
+            get { Living(); return (Material[])materials.Clone(); }
+            set { Living(); materials = (Material[])value.Clone(); }
+        }
+
+        public Material sharedMaterial
+        {
+            get { Living(); return materials.Length > 0 ? materials[0] : null; }
+            set
+            {
+                Living();
+                if (materials.Length == 0)
+                {
+                    materials = new Material[1];
+                }
+                materials[0] = value;
+            }
+        }
+
+        public Material material { get { return sharedMaterial; } set { sharedMaterial = value; } }
+
+        public Bounds bounds
+        {
+            get { Living(); return box; }
+            set { Living(); box = value; }
+        }
+
+        public bool isPartOfStaticBatch { get; internal set; }
+    }
+
+    public class MeshRenderer : Renderer { }
+}
