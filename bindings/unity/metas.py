@@ -35,10 +35,13 @@ IMPORTERS = {
     ".unity": "DefaultImporter",
     ".shader": "ShaderImporter",
     ".hlsl": "ShaderIncludeImporter",
+    ".png": "TextureImporter",
 }
 BODIES = {
     "MonoImporter": "  externalObjects: {}\n  serializedVersion: 2\n  defaultReferences: []\n  executionOrder: 0\n"
     "  icon: {instanceID: 0}\n",
+    "TextureImporter": "  serializedVersion: 12\n  mipmaps:\n    mipMapMode: 0\n    enableMipMap: 0\n    sRGBTexture: 1\n"
+    "  alphaIsTransparency: 1\n  textureType: 2\n  textureShape: 1\n", # 2: of the editor's interface
     "ShaderImporter": "  externalObjects: {}\n  defaultTextures: []\n  nonModifiableTextures: []\n"
     "  preprocessorOverride: 0\n",
     "NativeFormatImporter": "  externalObjects: {}\n  mainObjectFileID: 11400000\n",

@@ -137,6 +137,17 @@ class Scripts(unittest.TestCase):
             for name in re.findall(r"class (\w+)\s*:\s*(?:MonoBehaviour|ScriptableObject)\b", code):
                 self.assertEqual(os.path.basename(path), name + ".cs")
 
+    def test_components_and_assets_have_icons(self):
+        icons = os.path.join(package.PACKAGE, "Editor", "Icons")
+        guids = {re.search(r"guid: (\w+)", package.read(icons, name)).group(1)
+                 for name in os.listdir(icons) if name.endswith(".png.meta")}
+        for path in scripts():
+            if re.search(r"^    public sealed (?:partial )?class \w+\s*:\s*(?:MonoBehaviour|ScriptableObject)\b",
+                         package.read(package.PACKAGE, path), re.MULTILINE) and path.startswith("Runtime/"):
+                meta = package.read(package.PACKAGE, path + ".meta")
+                found = re.search(r"^  icon: \{fileID: 2800000, guid: (\w+), type: 3\}$", meta, re.MULTILINE)
+                self.assertTrue(found and found.group(1) in guids, path)
+
     def test_of_the_runtime_ask_for_no_type_by_its_name(self):
         """IL2CPP strips unreferenced types, and Marshal.SizeOf(Type) fails for types that are not marshalled."""
         for path in scripts():
