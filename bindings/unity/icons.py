@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
-"""Draws the icons of the Unity package's components, and names them in the metas of their scripts.
+"""Draws the icons of the Unity package's components, Editor/Icons/*.png. metas.py names them in the metas of scripts.
 
-usage: icons.py     writes Editor/Icons/*.png; run metas.py --write before, so that scripts have metas
+usage: icons.py
 """
 import math
 import os
-import re
 import struct
 import zlib
 
@@ -13,12 +12,6 @@ PACKAGE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "package")
 SIDE = 64  # pixels
 FINE = 4  # samples a pixel, each way
 INK, DARK = (255, 158, 51), (122, 66, 20)  # seen on Unity's light and dark skins
-SCRIPTS = {
-    "device": ("KnurlDevice", "KnurlCursor", "KnurlMouse", "KnurlRumble", "KnurlSound"),
-    "effect": ("KnurlEffect",),
-    "grating": ("KnurlGrating",),
-    "surface": ("KnurlSurface", "KnurlStripes", "KnurlGeometry"),
-}
 
 
 def distance(x, y, a, b):
@@ -78,28 +71,10 @@ def png(draw):
             + chunk(b"IDAT", zlib.compress(rows, 9)) + chunk(b"IEND", b""))
 
 
-def guid_of(path):
-    with open(path + ".meta", encoding="utf-8") as meta:
-        return re.search(r"^guid: (\w+)$", meta.read(), re.MULTILINE).group(1)
-
-
 def main():
-    import metas  # pylint: disable=import-outside-toplevel
-
-    folder = os.path.join(PACKAGE, "Editor", "Icons")
-    os.makedirs(folder, exist_ok=True)
-    for name in SCRIPTS:
-        with open(os.path.join(folder, name + ".png"), "wb") as file:
-            file.write(png(globals()[name]))
-    metas.write(PACKAGE)
-    for name, scripts in SCRIPTS.items():
-        icon = f"  icon: {{fileID: 2800000, guid: {guid_of(os.path.join(folder, name + '.png'))}, type: 3}}\n"
-        for script in scripts:
-            path = os.path.join(PACKAGE, "Runtime", script + ".cs.meta")
-            with open(path, encoding="utf-8") as meta:
-                text = re.sub(r"  icon: .*\n", icon, meta.read())
-            with open(path, "w", encoding="utf-8", newline="\n") as meta:
-                meta.write(text)
+    for draw in (device, effect, grating, surface):
+        with open(os.path.join(PACKAGE, "Editor", "Icons", draw.__name__ + ".png"), "wb") as file:
+            file.write(png(draw))
 
 
 if __name__ == "__main__":

@@ -46,6 +46,14 @@ BODIES = {
     "  preprocessorOverride: 0\n",
     "NativeFormatImporter": "  externalObjects: {}\n  mainObjectFileID: 11400000\n",
 }
+# The scripts whose components and assets have an icon, which icons.py draws.
+ICONS = {
+    "device": ("KnurlDevice", "KnurlCursor", "KnurlMouse", "KnurlRumble", "KnurlSound"),
+    "effect": ("KnurlEffect",),
+    "grating": ("KnurlGrating",),
+    "surface": ("KnurlSurface", "KnurlStripes", "KnurlGeometry"),
+}
+NO_ICON = "icon: {instanceID: 0}"
 PLAIN_BODY = "  externalObjects: {}\n"
 TAIL = "  userData: \n  assetBundleName: \n  assetBundleVariant: \n"
 
@@ -117,8 +125,16 @@ def plugin_body(path):
     return "\n".join(lines) + "\n"
 
 
+def icon_of(path):
+    for name, scripts in ICONS.items():
+        if path in (f"Runtime/{script}.cs" for script in scripts):
+            return f"icon: {{fileID: 2800000, guid: {guid_of(f'Editor/Icons/{name}.png')}, type: 3}}"
+    return NO_ICON
+
+
 def meta_text(path, is_folder, importer):
     body = plugin_body(path) if importer == "PluginImporter" else BODIES.get(importer, PLAIN_BODY)
+    body = body.replace(NO_ICON, icon_of(path))
     folder = "folderAsset: yes\n" if is_folder else ""
     return f"fileFormatVersion: 2\nguid: {guid_of(path)}\n{folder}{importer}:\n{body}{TAIL}"
 
