@@ -4,6 +4,7 @@ using System.Collections.Generic;
 using System.Linq;
 using NUnit.Framework;
 using UnityEngine;
+using UnityEngine.Rendering;
 
 namespace Knurl.Tests
 {
@@ -42,8 +43,13 @@ namespace Knurl.Tests
         Graphics.Drawing Drawn()
         {
             surface.gameObject.AddComponent<KnurlStripes>();
-            Player.Frame();
+            Render();
             return Graphics.Drawn.Single();
+        }
+
+        static void Render()
+        {
+            Camera.onPreCull(null);
         }
 
         /// <summary>At random points: drawn as a ridge if pressing there gives more than the wall's force, as a groove if
@@ -133,17 +139,33 @@ namespace Knurl.Tests
             Mesh mesh = Drawn().Mesh;
             Vector2[] before = mesh.uv;
             surface.transform.position = new Vector3(1f, 2f, 3f);
-            Player.Frame();
+            Render();
             CollectionAssert.AreEqual(before, mesh.uv);
             surface.Grating.SpatialFrequency = new Vector2(400f, 0f);
-            Player.Frame();
+            Render();
             Assert.That(mesh.uv[1] != before[1]);
             before = mesh.uv;
             surface.transform.localScale = new Vector3(1f, 1f, 3f);
             surface.Axis = Vector3.forward;
-            Player.Frame();
+            Render();
             Assert.That(mesh.uv[1] != before[1]);
             Assert.AreEqual(4, Graphics.Drawn.Count);
+        }
+
+        /// <summary>The built-in pipeline, and URP and HDRP, call for each camera.</summary>
+        [Test]
+        public void EachPipelinesCamerasAreDrawnForUntilItIsDisabled()
+        {
+            Make(Plate(), Vector3.one);
+            Camera eye = MakeObject("Eye").AddComponent<Camera>();
+            surface.gameObject.AddComponent<KnurlStripes>();
+            Camera.onPreCull(eye);
+            RenderPipelineManager.Begin(eye);
+            Assert.AreEqual(2, Graphics.Drawn.Count(drawing => drawing.Camera == eye));
+            surface.GetComponent<KnurlStripes>().enabled = false;
+            RenderPipelineManager.Begin(eye);
+            Assert.IsNull(Camera.onPreCull);
+            Assert.AreEqual(2, Graphics.Drawn.Count);
         }
 
         [Test]
@@ -153,7 +175,7 @@ namespace Knurl.Tests
             Material material = Drawn().Material;
             Assert.AreEqual("KnurlStripes", material.shader.name);
             surface.GetComponent<KnurlStripes>().Ridge = Color.red;
-            Player.Frame();
+            Render();
             Assert.AreEqual(Color.red, material.Colors["_Ridge"]);
         }
     }

@@ -47,7 +47,25 @@ namespace Knurl
             set { groove = value; }
         }
 
-        void LateUpdate()
+        /// <summary>Each pipeline calls one of the two for every camera: the Scene view's too, whenever that is drawn.</summary>
+        void OnEnable()
+        {
+            Camera.onPreCull += Draw;
+            RenderPipelineManager.beginCameraRendering += Draw;
+        }
+
+        void OnDisable()
+        {
+            Camera.onPreCull -= Draw;
+            RenderPipelineManager.beginCameraRendering -= Draw;
+        }
+
+        void Draw(ScriptableRenderContext context, Camera eye)
+        {
+            Draw(eye);
+        }
+
+        void Draw(Camera eye)
         {
             Mesh mesh;
             surface = surface == null ? GetComponent<KnurlSurface>() : surface;
@@ -61,7 +79,7 @@ namespace Knurl
             }
             material.SetColor("_Ridge", ridge);
             material.SetColor("_Groove", groove);
-            Graphics.DrawMesh(overlay, transform.localToWorldMatrix, material, gameObject.layer, null, 0, null,
+            Graphics.DrawMesh(overlay, transform.localToWorldMatrix, material, gameObject.layer, eye, 0, null,
                 ShadowCastingMode.Off, false);
         }
 

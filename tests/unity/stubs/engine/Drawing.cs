@@ -25,6 +25,7 @@ namespace UnityEngine
             public Mesh Mesh;
             public Matrix4x4 Matrix;
             public Material Material;
+            public Camera Camera;
         }
 
         public static readonly List<Drawing> Drawn = new List<Drawing>();
@@ -32,7 +33,7 @@ namespace UnityEngine
         public static void DrawMesh(Mesh mesh, Matrix4x4 matrix, Material material, int layer, Camera camera, int submeshIndex,
             object properties, Rendering.ShadowCastingMode castShadows, bool receiveShadows)
         {
-            Drawn.Add(new Drawing { Mesh = mesh, Matrix = matrix, Material = material });
+            Drawn.Add(new Drawing { Mesh = mesh, Matrix = matrix, Material = material, Camera = camera });
         }
     }
 
@@ -60,6 +61,22 @@ namespace UnityEngine
         }
 
         public enum ShadowCastingMode { Off, On }
+
+        public struct ScriptableRenderContext { }
+
+        public static class RenderPipelineManager
+        {
+            public static event Action<ScriptableRenderContext, Camera> beginCameraRendering;
+
+            /// For tests: what URP and HDRP do for a camera.
+            public static void Begin(Camera camera)
+            {
+                if (beginCameraRendering != null)
+                {
+                    beginCameraRendering(new ScriptableRenderContext(), camera);
+                }
+            }
+        }
 
         public static class GraphicsSettings
         {

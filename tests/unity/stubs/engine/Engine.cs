@@ -232,6 +232,9 @@ namespace UnityEngine
     /// Looks straight ahead, one pixel a millimetre, without perspective. Not: tags; main is the first that is active.
     public sealed class Camera : Behaviour
     {
+        public delegate void CameraCallback(Camera cam);
+        public static CameraCallback onPreCull;
+
         public float nearClipPlane { get; set; }
         public static Camera current { get { return main; } }
         public static Camera main { get { return Object.FindObjectOfType<Camera>(); } }
