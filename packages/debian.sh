@@ -19,7 +19,9 @@ cp -r "$here/debian" debian
 for file in debian/libknurl.*; do
     mv "$file" "debian/libknurl$minor.${file#*.}"
 done
-sed "s/@MINOR@/$minor/; s/@MAINTAINER@/$maintainer/" debian/control.in >debian/control
+control=$(<debian/control.in)
+control=${control//@MINOR@/"$minor"}
+printf '%s\n' "${control//@MAINTAINER@/"$maintainer"}" >debian/control
 rm debian/control.in
 printf 'knurl (%s-1) unstable; urgency=medium\n\n  * See changelog.gz.\n\n -- %s  %s\n' "$version" "$maintainer" \
     "$(date -u -R -d "@$SOURCE_DATE_EPOCH")" >debian/changelog
