@@ -197,6 +197,13 @@ soak_blender() {
     return $code
 }
 
+# The recipes for other package managers, with their tools.
+test_recipes() {
+    need_packages nix-bin ruby
+    need_python recipes-venv tests/package/recipes-requirements.txt
+    /usr/bin/python3 -B tests/package/recipes.py "$PWD" build/recipes build/recipes-venv/bin/conan
+}
+
 # The long forms of tests: each for a minute, or some ten times as long. Without ctest, which would stop them after two
 # minutes.
 soak() {
@@ -216,6 +223,7 @@ soak() {
     tests/tool/ridges_corpus.py build/release/knurl build/ridges || failed+=(ridges_corpus)
     same_numbers || failed+=(same_numbers)
     test_elsewhere || failed+=('macOS and arm64')
+    (test_recipes) || failed+=(recipes)
     soak_blender || failed+=(blender)
     test_systems '' "$CURRENT_SYSTEM" "$NEWEST_SYSTEM" || failed+=('the two commands in other systems') # with warnings
     figures --check || failed+=("figures --check")
