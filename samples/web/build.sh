@@ -17,7 +17,7 @@ cp "$here"/*.js "$here/../../assets/materials.json" "$work/knurl.mjs" "$work/pag
     --external:./view.js --external:./unpack.js --legal-comments=eof --outdir="$out" --log-level=warning
 cp "$here"/{index.html,start.js,style.css} "$work/knurl.wasm" "$out/"
 cp "$work"/page/node_modules/three/examples/jsm/libs/draco/gltf/draco_{decoder.wasm,wasm_wrapper.js} "$out/draco/"
-[ ! -f /usr/share/common-licenses/Apache-2.0 ] || cp /usr/share/common-licenses/Apache-2.0 "$out/draco/LICENSE" # Google's Draco
+cp "$here/apache-2.0.txt" "$out/draco/LICENSE" # of Google's Draco
 {
     cat "$here"/../../{LICENSE,bindings/godot/addons/knurl/THIRD_PARTY.md} # of the code in knurl.wasm
     printf '\n# three.js, in view.js and unpack.js\n\n'

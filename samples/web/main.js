@@ -1,4 +1,5 @@
 // The page: incoming ticks, and drawing. SPDX-License-Identifier: MIT
+import { Actuators } from "./actuators.js";
 import { drawComparison } from "./compare.js";
 import { Files, draw3d } from "./files.js";
 import { drawGauge } from "./gauge.js";
@@ -19,6 +20,7 @@ const history = new History();
 const sound = new Sound();
 const vibrate = offer();
 const ticks = { latest: null, crossed: 0, played: 0, missed: 0, cost: null };
+let actuators = null;
 let simulation = null; // or null: the page shows a run of the tool
 let rate = 1000; // Hz, of the source
 let panelsDrawn = 0; // ms
@@ -75,6 +77,7 @@ function numbers() {
     ["cycles crossed", crossed.toFixed(1)], ["played", played.toFixed(1)],
     ["net height", `${fixed(1000 * history.net(NET_S), 3)} mm`],
     ...(cost === null ? [] : [["a tick here", `${cost.toFixed(2)} µs`]]),
+    ...(actuators?.numbers() ?? []),
     ...(missed ? [["ticks missed", String(missed)]] : [])];
 }
 
@@ -159,10 +162,12 @@ function watchRun() {
 
 function simulate() {
   simulation = new Simulation(globalThis.started, {
-    ticks: ({ rows, heights, cost }) => {
-      ticks.cost = cost ?? ticks.cost;
-      arrive(rows, heights);
+    ticks: (came) => {
+      ticks.cost = came.cost ?? ticks.cost;
+      arrive(came.rows, came.heights);
+      actuators.play(came);
     },
+    inverse3: (event) => actuators.take(event),
     failed: () => tell("WebAssembly could not be started in this browser: there is nothing to feel here.", true),
   });
   const files = new Files(simulation, async (name) => {
@@ -173,6 +178,7 @@ function simulate() {
   const settings = new Settings(simulation, (name) => files.openDemo(name), setRate);
   const link = new Link(settings);
   listen((file) => (/\.csv$/i.test(file.name) ? recording.open(file) : files.openFile(file)));
+  actuators = new Actuators(simulation, () => settings.rest());
   new Pointer(simulation, { taken: () => press("ghost", false), clicked: (event) => files.give(scene.view.meshAt(event)) });
   link.follow().then(ready);
 }

@@ -1,4 +1,5 @@
-// The sound of the ticks, as they are felt, by an AudioWorklet's queue. It shares no memory, so any web server will do.
+// The sound of the ticks, as they are felt, and samples for an actuator on another output, each by an AudioWorklet's
+// queue. They share no memory, so any web server will do.
 // SPDX-License-Identifier: MIT
 import { Felt } from "./felt.js";
 import { AT, ROW } from "./rows.js";
@@ -35,20 +36,15 @@ registerProcessor("knurl", class extends AudioWorkletProcessor {
   }
 });`;
 
-export class Sound {
-  constructor() {
-    this.setRate(1000);
-  }
-
-  // Hz, of the ticks.
-  setRate(rate) {
-    this.felt = new Felt(rate, SAMPLE_RATE);
-  }
-
-  // Call it from a click: browsers allow no sound before. Throws if there is no sound.
-  async start() {
+// Plays samples on an output of this computer; "": the usual one.
+export class Output {
+  // Call it from a click: browsers allow no sound before. Throws if there is no sound, or no such output.
+  async start(id = "") {
     if (!this.context) {
-      await this.attach(new AudioContext({ sampleRate: SAMPLE_RATE }));
+      await this.attach(new AudioContext({ sampleRate: SAMPLE_RATE, latencyHint: "interactive" }));
+    }
+    if (id !== "") {
+      await this.context.setSinkId(id);
     }
     await this.context.resume();
     this.on = true;
@@ -68,6 +64,24 @@ export class Sound {
     this.context?.suspend();
   }
 
+  send(samples) {
+    if (this.on) {
+      this.node.port.postMessage(samples, [samples.buffer]);
+    }
+  }
+}
+
+export class Sound extends Output {
+  constructor() {
+    super();
+    this.setRate(1000);
+  }
+
+  // Hz, of the ticks.
+  setRate(rate) {
+    this.felt = new Felt(rate, SAMPLE_RATE);
+  }
+
   // surfaces: of the scene, for their stiffness.
   play(rows, surfaces) {
     if (this.on) {
@@ -75,8 +89,7 @@ export class Sound {
         const at = k * ROW;
         return rows[at + AT.height] * (surfaces[rows[at + AT.surface]]?.feel[3] ?? 0);
       });
-      const samples = this.felt.render(forces);
-      this.node.port.postMessage(samples, [samples.buffer]);
+      this.send(this.felt.render(forces));
     }
   }
 }

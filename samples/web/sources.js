@@ -12,9 +12,9 @@ async function compile(answer) {
 }
 
 export class Simulation {
-  // Takes the worker and the fetch of WebAssembly that index.html started. Calls ticks({rows, heights, cost})
-  // some 80 times per second.
-  constructor({ worker, wasm }, { ticks, failed }) {
+  // Takes the worker and the fetch of WebAssembly that index.html started. Calls ticks({rows, heights, cost, coil,
+  // rumble}) some 80 times per second, and inverse3() for what happens to one.
+  constructor({ worker, wasm }, { ticks, inverse3, failed }) {
     this.waiting = new Map();
     this.asked = 0;
     this.worker = worker;
@@ -27,6 +27,8 @@ export class Simulation {
     this.worker.onmessage = ({ data }) => {
       if (data.kind === "ticks") {
         ticks(data);
+      } else if (data.kind === "inverse3") {
+        inverse3(data);
       } else {
         this.waiting.get(data.id)?.(data);
         this.waiting.delete(data.id);

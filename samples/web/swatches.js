@@ -24,9 +24,8 @@ export function showSwatches(take) {
     const swatch = document.createElement("button");
     const sources = `${title}. Period: ${period}. Depth: ${depth}.`;
     swatch.type = "button";
-    swatch.style.background = color;
-    swatch.title = sources;
-    swatch.setAttribute("aria-label", title);
+    swatch.style.setProperty("--colour", color);
+    swatch.textContent = swatch.title = title;
     swatch.addEventListener("click", async () => {
       loosen(feel);
       await take(feel, color);

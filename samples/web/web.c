@@ -3,7 +3,6 @@
 #include "web.h"
 
 #include <knurl/gltf.h>
-#include <knurl/hip.h>
 #include <knurl/query.h>
 
 #include <emscripten.h>
@@ -16,6 +15,7 @@
 static knurl_scene *scene;
 static knurl_hip_desc hip;
 static double quantum; /* m: positions are rounded to it; 0: exact */
+static int is_real;    /* 1: the HIP is a device's; 0: the page's hand */
 static struct {
     knurl_grating grating;
     knurl_grating_state state;
@@ -33,8 +33,8 @@ static void begin_hip(void) {
 
 static knurl_result open_hip(void) {
     knurl_workspace workspace;
-    knurl_workspace_set_identity(&workspace); /* device axes are the scene's */
-    hip.workspace = &workspace;
+    knurl_workspace_set_identity(&workspace); /* the hand's axes are the scene's */
+    hip.workspace = is_real ? NULL : &workspace;
     other_surface = 0;
     return knurl_scene_configure_hip(scene, 0, &hip);
 }
@@ -105,13 +105,24 @@ EMSCRIPTEN_KEEPALIVE int web_feel(uint32_t index, const double numbers[6]) {
     return result ? result : knurl_scene_set_material(scene, surface, &material);
 }
 
-/* Sets the update rate (Hz), the encoder's count (m; 0: exact), and KNURL_PROTECT_ bits, before or after a load. Resets
- * the HIP. */
-EMSCRIPTEN_KEEPALIVE int web_device(double rate, double resolution, uint32_t protections) {
-    begin_hip();
+/* Sets the update rate (Hz), the encoder's count (m; 0: exact), and KNURL_PROTECT_ bits, before or after a load. For an
+ * Inverse3 max_force (N, that its motors hold for long, so that their heat needs no memory) and max_stiffness (N/m) are
+ * its limits; 0: the HIP is the page's hand. Resets the HIP. */
+EMSCRIPTEN_KEEPALIVE int web_device(double rate, double resolution, uint32_t protections, double max_force,
+                                    double max_stiffness) {
+    knurl_hip_desc_init(&hip, sizeof hip);
     hip.update_rate_hz = rate;
     hip.resolution = quantum = resolution;
     hip.protections = protections;
+    is_real = max_force > 0.0;
+    if (is_real) { /* as sdk/src/device/inverse3/inverse3.c has them */
+        hip.clamp = 1;
+        hip.resolution = fmax(resolution, 0.00001);
+        hip.max_force = hip.continuous_force = max_force;
+        hip.max_stiffness = max_stiffness;
+        hip.viscous = 0.5;
+        hip.delay = 2.0;
+    }
     return scene ? open_hip() : KNURL_OK;
 }
 
@@ -168,10 +179,11 @@ static void step_others(const knurl_tick_output *out, float heights[METHODS]) {
     }
 }
 
-/* Ticks at `count` positions (3 doubles each; NaN: no position). rows: force (3), HIP (3), proxy (3), depth, height,
- * f_t, cycles (2), 1 in contact, surface index or -1, t, vx, vy, fs, normal (3); rows.js names them, and knurl run
+/* Ticks at `count` positions (3 doubles each; NaN: no position), with a gain of 0 to 1 on the force. rows: force (3),
+ * HIP (3), proxy (3), depth, height, f_t, cycles (2), 1 in contact, surface index or -1, t, vx, vy, fs, normal (3);
+ * rows.js names them, and knurl run
  * --view sends the same. heights: by S1, S2 and BANDLIMITED, of the same stroke. */
-EMSCRIPTEN_KEEPALIVE void web_tick(uint32_t count, const double *positions, double *rows, float *heights) {
+EMSCRIPTEN_KEEPALIVE void web_tick(uint32_t count, const double *positions, double gain, double *rows, float *heights) {
     for (uint32_t k = 0; k < count; k++) {
         knurl_tick_input in;
         knurl_tick_output out;
@@ -179,10 +191,12 @@ EMSCRIPTEN_KEEPALIVE void web_tick(uint32_t count, const double *positions, doub
         memset(&in, 0, sizeof in);
         memcpy(in.position, positions + (size_t)3 * k, sizeof in.position);
         in.absent = !isfinite(in.position[0]);
+        in.attenuation = 1.0 - gain;
         for (int i = 0; i < 3 && quantum > 0.0; i++) {
             in.position[i] = quantum * floor(in.position[i] / quantum + 0.5);
         }
         (void)knurl_scene_tick(scene, 0, &in, &out);
+        web_voice_take(&out);
         step_others(&out, heights + (size_t)METHODS * k);
         memcpy(row, out.force, sizeof out.force);
         memcpy(row + 3, out.hip, sizeof out.hip);

@@ -2,9 +2,11 @@
 // ONLY=WORDS: the cases whose names hold them; SHORT=1: a few of all. usage: node browser.mjs PAGE MODULES KNURL TMP CHROMIUM
 // SPDX-License-Identifier: MIT
 import { complaints, finish, runCase } from "./harness.mjs";
+import { cases as actuators } from "./actuators.mjs";
 import { cases as equal } from "./equal.mjs";
 import { cases as felt } from "./felt.mjs";
 import { cases as hostile } from "./hostile.mjs";
+import { cases as inverse3 } from "./inverse3.mjs";
 import { cases as own } from "./own.mjs";
 import { cases as packed } from "./packed.mjs";
 import { cases as page } from "./page.mjs";
@@ -17,7 +19,7 @@ const SHORT = ["a stroke by the pointer crosses ridges and pushes back", "arrow 
   "a file without tags is shown; a click gives a part ridges that are felt and saved", "forces are the native tick's, and their sound is played",
   "a hostile file gets a sentence, and what was there goes on"];
 const isChosen = ([name]) => name.includes(process.env.ONLY ?? "") && (!process.env.SHORT || SHORT.includes(name));
-const total = [page, pictures, equal, felt, own, packed, hostile, report, timed].reduce((sum, cases) => sum + Object.keys(cases).length, 0);
+const total = [page, pictures, equal, felt, own, packed, hostile, inverse3, actuators, report, timed].reduce((sum, cases) => sum + Object.keys(cases).length, 0);
 let count = 0;
 let failed = 0;
 
@@ -37,7 +39,7 @@ async function runAll(cases) {
 }
 
 await runAll(Object.entries(timed).filter(isChosen));
-const others = Object.entries({ ...page, ...pictures, ...equal, ...felt, ...own, ...packed, ...hostile, ...report }).filter(isChosen);
+const others = Object.entries({ ...page, ...pictures, ...equal, ...felt, ...own, ...packed, ...hostile, ...inverse3, ...actuators, ...report }).filter(isChosen);
 await Promise.all(Array.from({ length: LANES }, () => runAll(others)));
 if (complaints.length > 0) {
   failed++;

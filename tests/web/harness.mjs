@@ -1,15 +1,16 @@
 // A browser with the page that ./run web built, and a user's actions. SPDX-License-Identifier: MIT
 import { AsyncLocalStorage } from "node:async_hooks";
-import { createReadStream, existsSync } from "node:fs";
+import { createReadStream, existsSync, readFileSync } from "node:fs";
 import { createServer } from "node:http";
-import { extname, join, normalize } from "node:path";
-import { pathToFileURL } from "node:url";
+import { dirname, extname, join, normalize } from "node:path";
+import { fileURLToPath, pathToFileURL } from "node:url";
 
 // usage: node browser.mjs PAGE MODULES KNURL TMP CHROMIUM
 export const [page, modules, tool, tmp, executablePath] = process.argv.slice(2);
 export const ROW = 23; // numbers a tick, as samples/web/rows.js has it
-const { chromium } = await import(pathToFileURL(join(modules, "playwright-core/index.mjs")));
-const FLAGS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+export const { chromium } = await import(pathToFileURL(join(modules, "playwright-core/index.mjs")));
+export const root = join(dirname(fileURLToPath(import.meta.url)), "../..");
+export const FLAGS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
   "--disable-background-networking", "--disable-component-update", "--disable-sync", "--enable-unsafe-swiftshader"];
 const TYPES = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".wasm": "application/wasm",
   ".glb": "model/gltf-binary" };
@@ -25,9 +26,13 @@ const server = createServer((request, response) => {
   createReadStream(path).pipe(response);
 });
 await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
-const address = `http://127.0.0.1:${server.address().port}/`;
+export const { port } = server.address();
+const address = `http://127.0.0.1:${port}/`;
 export const browser = await chromium.launch({ executablePath, args: FLAGS });
 export const complaints = []; // of the console
+
+// Removes those that a case expects.
+export const forgive = (pattern) => complaints.splice(0, complaints.length, ...complaints.filter((text) => !pattern.test(text)));
 
 const SMALL = { viewport: { width: 800, height: 600 } };
 const lane = new AsyncLocalStorage(); // {context} of the case that runs
@@ -60,6 +65,16 @@ export async function open({ options = SMALL, hash = "", url = address + hash, b
   return tab;
 }
 
+// For open({before}): a browser without WebGL.
+export function withoutWebGL(tab) {
+  return tab.addInitScript(() => {
+    const { getContext } = HTMLCanvasElement.prototype;
+    HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+      return /webgl/.test(kind) ? null : getContext.call(this, kind, ...rest);
+    };
+  });
+}
+
 export const status = (tab) => tab.textContent("#status");
 export const shown = (tab, key) =>
   tab.evaluate((name) => [...document.querySelectorAll("#numbers div")]
@@ -71,6 +86,18 @@ export async function drop(tab, bytes, name) {
     data.items.add(new File([Uint8Array.from(content)], label));
     window.dispatchEvent(new DragEvent("drop", { dataTransfer: data, cancelable: true }));
   }, [[...bytes], name]);
+}
+
+// Half a second as the page records it: the CSV file's rows by column.
+export async function recorded(tab, name) {
+  await tab.click("#record");
+  await tab.waitForTimeout(500);
+  await tab.click("#record");
+  const [download] = await Promise.all([tab.waitForEvent("download"), tab.click("#save")]);
+  await download.saveAs(join(tmp, name));
+  const [header, ...lines] = readFileSync(join(tmp, name), "utf8").trim().split("\n");
+  const names = header.split(",");
+  return lines.map((line) => Object.fromEntries(line.split(",").map((cell, i) => [names[i], Number(cell)])));
 }
 
 export async function strokeAcross(tab) {

@@ -6,7 +6,7 @@ import { readFileSync, writeFileSync } from "node:fs";
 import { createServer } from "node:http";
 import { join } from "node:path";
 import { startLive } from "./equal.mjs";
-import { complaints, drop, open, page, shown, status, strokeAcross, tmp } from "./harness.mjs";
+import { drop, forgive, open, page, shown, status, strokeAcross, tmp, withoutWebGL } from "./harness.mjs";
 
 // The demo plate with a texture at another host.
 function textured(url) {
@@ -47,7 +47,7 @@ async function requestsDuring(work) {
   return asked;
 }
 
-const noTexture = () => complaints.splice(0, complaints.length, ...complaints.filter((text) => !/load texture/.test(text)));
+const noTexture = () => forgive(/load texture/);
 
 export const cases = {
   async "a model's image at another host is not asked for"() {
@@ -96,7 +96,7 @@ export const cases = {
       }
     });
     assert.deepEqual(asked, []);
-    complaints.splice(0, complaints.length, ...complaints.filter((text) => !/Content Security Policy/.test(text)));
+    forgive(/Content Security Policy/);
   },
 
   async "a hostile file gets a sentence, and what was there goes on"() {
@@ -136,19 +136,14 @@ export const cases = {
   },
 
   async "without WebGL the arrow keys stroke, and the page says so"() {
-    const tab = await open({ before: (bare) => bare.addInitScript(() => {
-      const getContext = HTMLCanvasElement.prototype.getContext;
-      HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
-        return /webgl/.test(kind) ? null : getContext.call(this, kind, ...rest);
-      };
-    }) });
+    const tab = await open({ before: withoutWebGL });
     assert.match(await status(tab), /no WebGL/);
     await tab.focus("#view");
     for (let i = 0; i < 20; i++) {
       await tab.keyboard.press("ArrowRight", { delay: 10 });
     }
     await tab.waitForFunction(() => /force0\.[^0]/.test(document.querySelector("#numbers").textContent));
-    complaints.splice(0, complaints.length, ...complaints.filter((text) => !/WebGL/.test(text))); // three.js' own
+    forgive(/WebGL/); // three.js' own
   },
 
   async "a browser without WebAssembly gets a sentence"() {
@@ -161,7 +156,7 @@ export const cases = {
     const tab = await open({ url: `file://${page}/index.html`, waits: false });
     await tab.waitForSelector("#status.error");
     assert.match(await status(tab), /Serve it: python3 -m http.server/);
-    complaints.splice(0, complaints.length, ...complaints.filter((text) => !/file:|ERR_FAILED/.test(text))); // the browser's own
+    forgive(/file:|ERR_FAILED/); // the browser's own
   },
 
   async "a policy of the server that forbids the page is named"() {
@@ -175,7 +170,7 @@ export const cases = {
     const none = await under("script-src 'none'"); // no script can tell
     const told = await none.locator("#status").evaluate((part) => getComputedStyle(part, "::after").content);
     assert.match(told, /server may forbid/);
-    complaints.splice(0, complaints.length, ...complaints.filter((text) => !/Content Security Policy|wasm|WebAssembly/i.test(text)));
+    forgive(/Content Security Policy|wasm|WebAssembly/i);
   },
 
   async "two fingers turn the view, and do not stroke"() {

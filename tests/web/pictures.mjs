@@ -2,11 +2,10 @@
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { writeFileSync } from "node:fs";
-import { dirname, join } from "node:path";
-import { fileURLToPath } from "node:url";
-import { open, tmp } from "./harness.mjs";
+import { join } from "node:path";
+import { open, root, tmp } from "./harness.mjs";
 
-const root = join(dirname(fileURLToPath(import.meta.url)), "../..");
+
 const SIZES = {
   web: { viewport: { width: 1280, height: 800 } },
   web_phone: { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true },

@@ -1,14 +1,19 @@
 /* emulate_inverse3 FAULT COMMAND...: runs COMMAND with PORT in its arguments replaced by the port of an emulated Haply
  * Inverse Service on this machine, and exits with its code. The hand strokes along x, 1 mm below y = 0 at the middle of
- * the workspace. FAULT happens 0.1 s after a client has connected: none, unplugged, unpowered, closed (the service
- * ends), mute, late (20 ms), garbage, long (70 KB). Others apply from the start: old (before 3.5), silent (no first
- * message), strange (a first message that is not JSON), two (another device is listed first). SPDX-License-Identifier:
- * MIT */
+ * the workspace. FAULT happens 0.1 s after a client has connected, FAULT@SECONDS so much later: none, unplugged,
+ * unpowered, unhomed (not calibrated), unready, closed (the service ends), mute, late (20 ms), garbage, short (half a
+ * message), long (70 KB), endless (a position that is not finite), jump (by 50 mm). Others apply from the start: old
+ * (before 3.5), silent (no first message), strange (a first message that is not JSON), two (another device is listed
+ * first). With KNURL_EMULATOR_LOG in its environment it prints every 20 ms what it was told.
+ * SPDX-License-Identifier: MIT */
 #define _GNU_SOURCE
 
 #include "device/inverse3/inverse3_sim.h"
 
+#include "base/vec3.h"
+
 #include <libwebsockets.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,18 +21,20 @@
 #include <time.h>
 #include <unistd.h>
 
-#define LONG_BYTES  70000
-#define FAULT_AFTER 0.1 /* s */
+#define LONG_BYTES 70000
+#define LOG_EVERY  20000 /* us */
 
 static struct {
     inverse3_sim sim;
-    const char *fault;
+    char fault[32];
+    double fault_after;  /* s after a client has connected */
     double connected_at; /* s */
+    double zero_since;   /* s: since when the force that it is told is zero; < 0: it is not */
+    double greatest;     /* N that it was told */
     int is_greeted;
-    unsigned unanswered;
-    char heard[4096];
-    size_t heard_size;
-    unsigned char said[LWS_PRE + LONG_BYTES];
+    unsigned unanswered, heard_count;
+    int said_size;
+    unsigned char said[LWS_PRE + LONG_BYTES]; /* the newest answer */
 } e;
 
 static double seconds(void) {
@@ -38,25 +45,52 @@ static double seconds(void) {
 
 static int is_fault(const char *name) {
     const int begins = strcmp(name, "silent") == 0 || strcmp(name, "strange") == 0;
-    return strcmp(e.fault, name) == 0 && (begins || (e.is_greeted && seconds() - e.connected_at > FAULT_AFTER));
+    return strcmp(e.fault, name) == 0 && (begins || (e.is_greeted && seconds() - e.connected_at > e.fault_after));
+}
+
+static void note_force(void) {
+    const double force = vec3_length(e.sim.told);
+    e.heard_count++;
+    e.greatest = fmax(e.greatest, force);
+    e.zero_since = force > 0.0 ? -1.0 : e.zero_since >= 0.0 ? e.zero_since : seconds();
+}
+
+/* s since the client connected, messages, N told now and at most, N that rose in a message at most, N told while its
+ * motors were off, s at which the force became zero. */
+static void print_log(void) {
+    (void)fprintf(stderr, "%.3f %u %.6f %.6f %.6f %d %.4f\n", seconds() - e.connected_at, e.heard_count,
+                  vec3_length(e.sim.told), e.greatest, e.sim.greatest_rise, e.sim.told_while_off,
+                  e.zero_since < 0.0 ? -1.0 : e.zero_since - e.connected_at);
+}
+
+static void hear(const char *in, size_t size) {
+    char message[4096];
+    const size_t kept = size < sizeof message ? size : 0;
+    memcpy(message, in, kept);
+    message[kept] = '\0';
+    e.said_size = inverse3_sim_hear(&e.sim, seconds(), message, (char *)e.said + LWS_PRE);
+    e.unanswered++;
+    note_force();
 }
 
 /* One answer, or the first message; -1 closes the connection. */
 static int say(struct lws *wsi) {
     char *text = (char *)e.said + LWS_PRE;
-    int length = !e.is_greeted ? inverse3_sim_greet(&e.sim, seconds(), text) : 0;
-    if (!e.is_greeted && is_fault("strange")) {
-        length = snprintf(text, 64, "hello, this is another program's");
-    } else if (e.is_greeted) {
-        e.heard[e.heard_size] = '\0';
-        length = inverse3_sim_hear(&e.sim, seconds(), e.heard, text);
+    int length = e.said_size;
+    if (e.is_greeted) {
         e.unanswered--;
+    } else if (is_fault("strange")) {
+        length = snprintf(text, 64, "hello, this is another program's");
+    } else {
+        length = inverse3_sim_greet(&e.sim, seconds(), text);
     }
     e.is_greeted = 1;
     if (is_fault("late")) {
         (void)usleep(20000);
     } else if (is_fault("garbage")) {
         memset(text, '}', (size_t)length);
+    } else if (is_fault("short")) {
+        length /= 2;
     } else if (is_fault("long")) {
         memset(text + length, ' ', LONG_BYTES - (size_t)length);
         length = LONG_BYTES;
@@ -76,15 +110,17 @@ static int on_event(struct lws *wsi, enum lws_callback_reasons reason, void *use
         }
         break;
     case LWS_CALLBACK_RECEIVE:
-        e.heard_size = size < sizeof e.heard ? size : 0;
-        memcpy(e.heard, in, e.heard_size);
-        e.unanswered++;
+        hear(in, size);
         if (is_fault("unplugged") && !e.sim.is_gone) {
             inverse3_sim_unplug(&e.sim, seconds());
         }
         if (is_fault("unpowered") && !e.sim.is_unpowered) {
             inverse3_sim_power(&e.sim, seconds(), 0);
         }
+        e.sim.is_endless = is_fault("endless");
+        e.sim.is_unhomed = is_fault("unhomed");
+        e.sim.is_not_ready = is_fault("unready");
+        e.sim.jump = is_fault("jump") ? 0.05 : 0.0;
         if (is_fault("closed")) {
             return -1;
         }
@@ -152,11 +188,15 @@ static void on_timer(lws_sorted_usec_list_t *at) {
 int main(int argc, char **argv) {
     int port = 0;
     int status = 0;
+    double logged_at = 0.0;
     if (argc < 3) {
         (void)fprintf(stderr, "usage: %s FAULT COMMAND...\n", argv[0]);
         return 2;
     }
-    e.fault = argv[1];
+    e.fault_after = 0.1;
+    e.zero_since = 0.0;
+    /* NOLINTNEXTLINE(bugprone-unchecked-string-to-number-conversion,cert-err34-c): tests' locale */
+    (void)sscanf(argv[1], "%31[^@]@%lf", e.fault, &e.fault_after);
     inverse3_sim_init(&e.sim, seconds(), 1);
     e.sim.is_old = strcmp(e.fault, "old") == 0;
     e.sim.has_second = strcmp(e.fault, "two") == 0;
@@ -170,8 +210,12 @@ int main(int argc, char **argv) {
         run(argv + 2, port);
     }
     while (waitpid(child, &status, WNOHANG) == 0) {
-        lws_sul_schedule(context, 0, &timer, on_timer, 20000);
+        lws_sul_schedule(context, 0, &timer, on_timer, LOG_EVERY);
         (void)lws_service(context, 0);
+        if (getenv("KNURL_EMULATOR_LOG") && e.connected_at > 0.0 && seconds() - logged_at >= 1e-6 * LOG_EVERY) {
+            logged_at = seconds();
+            print_log();
+        }
     }
     lws_context_destroy(context);
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128;

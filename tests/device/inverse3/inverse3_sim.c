@@ -167,10 +167,10 @@ int inverse3_sim_hear(inverse3_sim *sim, double seconds, const char *message, ch
     if (configure && strstr(configure, "\"damping\":{\"scalar\":0}")) {
         sim->damping = 0.0;
     }
-    if (is_force && strstr(message, "\"device_id\":\"" ID "\"") && !sim->is_gone) {
+    if (is_force && strstr(message, "\"device_id\":\"" ID "\"")) {
         sim->told_while_off += (sim->is_unpowered || sim->is_not_ready) && (f[0] != 0.0 || f[1] != 0.0 || f[2] != 0.0);
         memcpy(sim->told, f, sizeof f);
-        memset(f, 0, sim->is_unpowered || sim->is_not_ready ? sizeof f : 0); /* its motors cannot */
+        memset(f, 0, sim->is_gone || sim->is_unpowered || sim->is_not_ready ? sizeof f : 0); /* its motors cannot */
         play(sim, seconds, f);
     } else if (is_force && strstr(message, "\"device_id\":\"" OTHER "\"")) {
         memcpy(sim->force_of_second, f, sizeof f);
