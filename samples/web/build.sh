@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# Assembles the page in OUT, a folder that any web server can serve: WebAssembly, bundled scripts, demo assets.
+# Assembles the page in OUT, a folder that any web server can serve: WebAssembly, bundled scripts, demo assets; and in
+# OUT-npm the package for npm.
 # usage: build.sh WORK OUT
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 work=$1 out=$2
-mkdir -p "$work/page" "$out"/{assets,draco}
+mkdir -p "$work/page" "$out"/{assets,draco} "$out-npm"
 cp "$here"/{package.json,package-lock.json,.npmrc} "$work/page/"
 if ! cmp -s "$here/package-lock.json" "$work/page/installed.json"; then # the lock file's versions, checked by hash
     echo 'fetching three.js and esbuild'
@@ -12,9 +13,14 @@ if ! cmp -s "$here/package-lock.json" "$work/page/installed.json"; then # the lo
     cp "$here/package-lock.json" "$work/page/installed.json"
 fi
 "$here/wasm.sh" "$work"
-cp "$here"/*.js "$here/../../assets/materials.json" "$work/knurl.mjs" "$work/page/"
-"$work/page/node_modules/@esbuild/linux-x64/bin/esbuild" "$work"/page/{main,view,worker,unpack}.js --bundle --minify --format=esm \
-    --external:./view.js --external:./unpack.js --legal-comments=eof --outdir="$out" --log-level=warning
+cp -r "$here"/{*.js,npm} "$here/../../assets/materials.json" "$work/knurl.mjs" "$work/page/"
+bundle() { # usage: bundle OUT SCRIPT...
+    "$work/page/node_modules/@esbuild/linux-x64/bin/esbuild" "${@:2}" --bundle --minify --format=esm --outdir="$1" --log-level=warning \
+        --external:./{view,unpack,index}.js --legal-comments=eof
+}
+bundle "$out" "$work"/page/{main,view,worker,unpack}.js
+bundle "$out-npm" "$work"/page/npm/{index,figure}.js
+cp "$here"/npm/*.{json,md,html,d.ts} "$here"/../../{LICENSE,bindings/godot/addons/knurl/THIRD_PARTY.md,assets/plate_1d.glb} "$work/knurl.wasm" "$out-npm/"
 cp "$here"/{index.html,start.js,style.css} "$work/knurl.wasm" "$out/"
 cp "$work"/page/node_modules/three/examples/jsm/libs/draco/gltf/draco_{decoder.wasm,wasm_wrapper.js} "$out/draco/"
 cp "$here/apache-2.0.txt" "$out/draco/LICENSE" # of Google's Draco

@@ -1,11 +1,7 @@
-// One stroke by every method: a card each with the spectrum of its height, false tones and push; the chosen one is heard
-// and seen. SPDX-License-Identifier: MIT
-import { $, prepare } from "./page.js";
+// One stroke by every method, a card each; the chosen one is heard and seen. SPDX-License-Identifier: MIT
+import { drawCards } from "./cards.js";
+import { $ } from "./page.js";
 import { METHODS } from "./rows.js";
-import { amplitudes, falseTones, findSteady, isRidges } from "./spectrum.js";
-
-const TOP_HZ = 520;
-const SHOWN_S = 1.5; // of history: a whole stroke of the hand is in it
 
 const cards = [...document.querySelectorAll("#methods label")].map((label) =>
   ({ canvas: label.querySelector("canvas"), text: label.querySelector("output") }));
@@ -22,45 +18,13 @@ export function listen(chosen) {
   $("methods").addEventListener("change", chosen);
   addEventListener("keydown", ({ key, target, ctrlKey, altKey, metaKey }) => {
     const isText = target.matches?.("select, input:not([type=radio], [type=range])");
-    if (key >= "1" && key <= String(METHODS) && !isText && !ctrlKey && !altKey && !metaKey) {
+    const isBlind = document.documentElement.dataset.blind === "1";
+    if (!isBlind && key >= "1" && key <= String(METHODS) && !isText && !ctrlKey && !altKey && !metaKey) {
       setMethod(Number(key));
       chosen();
     }
   });
 }
 
-function drawCard({ canvas, text }, lines, rate, frequency, said) {
-  const { context, colour, width, height } = prepare(canvas);
-  const step = rate / (2 * (lines.length - 1));
-  const most = Math.max(1e-9, ...lines);
-  const x = (hz) => (hz / TOP_HZ) * width;
-  context.fillStyle = colour("--line");
-  context.fillRect(0, height - 1, width, 1);
-  lines.forEach((line, k) => {
-    const tall = (line / most) * (height - 3);
-    context.fillStyle = colour(isRidges(k * step, frequency, step) ? "--accent" : "--asked");
-    context.fillRect(x(k * step) - 1, height - 1 - tall, Math.max(1.5, x(step) - 0.5), tall);
-  });
-  text.textContent = said;
-}
-
-// rows: {frequency, way, heights: m by each method}. amplitude: of the touched surface, m.
-export function drawComparison(history, amplitude) {
-  const rows = history.latest(SHOWN_S * history.rate);
-  const steady = rows.length > 0 && rows[0].heights ? findSteady(rows, history.rate) : null;
-  if (!steady) {
-    return; // the last values stay
-  }
-  const part = rows.slice(steady.from, steady.from + steady.count);
-  const { frequency } = part[part.length - 1];
-  cards.forEach((card, i) => {
-    const values = part.map(({ heights }) => heights[i]);
-    const lines = amplitudes(values);
-    const mean = Math.abs(values.reduce((sum, value) => sum + value, 0) / values.length);
-    const silent = Math.max(...values.map(Math.abs)) * 20 < amplitude || Math.max(...lines) * 20 < amplitude;
-    const wrong = Math.round(100 * falseTones(lines, history.rate, frequency));
-    const push = amplitude > 0 ? Math.round((100 * mean) / amplitude) : 0;
-    drawCard(card, lines, history.rate, frequency,
-      silent ? "silent" : `${wrong} % false tones${push > 5 ? `, pushes ${push} %` : ""}`);
-  });
-}
+// amplitude: of the touched surface, m.
+export const drawComparison = (history, amplitude) => drawCards(cards, history, amplitude);

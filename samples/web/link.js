@@ -35,11 +35,27 @@ async function copy() {
   }
 }
 
+// The same as a figure in another page.
+async function copyFigure() {
+  const address = `${location.href.replace(/#.*/, "")}#embed=1&${describe()}`.replaceAll("&", "&amp;");
+  const frame = `<iframe src="${address}" width="640" height="420" loading="lazy" title="Ridges as a force-feedback device plays them"></iframe>`;
+  try {
+    await navigator.clipboard.writeText(frame);
+    tell("The figure is in the clipboard: an <iframe>, in HTML.");
+  } catch {
+    tell(frame);
+  }
+}
+
 export class Link {
   constructor(settings) {
     this.settings = settings;
     this.waiting = null; // a link whose file has still to be opened
     $("share").addEventListener("click", copy);
+    $("embed").addEventListener("click", copyFigure);
+    $("whole").addEventListener("click", () => {
+      $("whole").href = `#${describe()}`;
+    });
     addEventListener("hashchange", () => this.follow()); // pasted, or Back
     addEventListener("popstate", () => this.follow());
   }

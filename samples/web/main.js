@@ -1,5 +1,6 @@
 // The page: incoming ticks, and drawing. SPDX-License-Identifier: MIT
 import { Actuators } from "./actuators.js";
+import { Blind } from "./blind.js";
 import { drawComparison } from "./compare.js";
 import { Files, draw3d } from "./files.js";
 import { drawGauge } from "./gauge.js";
@@ -32,9 +33,7 @@ function take(rows, heights = null) {
   for (let at = 0, k = 0; at < rows.length; at += ROW, k += METHODS) {
     const row = rows.subarray(at, at + ROW);
     const { latest } = ticks;
-    const [vx, vy] = row.subarray(AT.velocity, AT.velocity + 2);
-    history.add({ height: row[AT.height], force: length(row), frequency: row[AT.frequency],
-      way: Math.sign(Math.abs(vx) >= Math.abs(vy) ? vx : vy), heights: heights?.subarray(k, k + METHODS) });
+    history.add(row, heights?.subarray(k, k + METHODS));
     ticks.crossed += row[AT.frequency] / history.rate;
     ticks.played += row[AT.height] * (latest?.[AT.height] ?? 0) < 0 ? 0.5 : 0;
     ticks.missed += latest ? Math.max(0, Math.round((row[AT.time] - latest[AT.time]) * history.rate) - 1) : 0;
@@ -178,6 +177,7 @@ function simulate() {
   const settings = new Settings(simulation, (name) => files.openDemo(name), setRate);
   const link = new Link(settings);
   listen((file) => (/\.csv$/i.test(file.name) ? recording.open(file) : files.openFile(file)));
+  new Blind(() => settings.setMethods());
   actuators = new Actuators(simulation, () => settings.rest());
   new Pointer(simulation, { taken: () => press("ghost", false), clicked: (event) => files.give(scene.view.meshAt(event)) });
   link.follow().then(ready);

@@ -40,6 +40,6 @@ export function prepare(canvas) {
   const context = canvas.getContext("2d");
   context.scale(ratio, ratio);
   context.font = "12px system-ui, sans-serif";
-  const style = getComputedStyle(document.documentElement);
+  const style = getComputedStyle(canvas);
   return { context, width, height, colour: (name) => style.getPropertyValue(name) };
 }

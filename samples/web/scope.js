@@ -1,5 +1,6 @@
 // The oscilloscope: height, force and f_t over the last second. SPDX-License-Identifier: MIT
 import { prepare } from "./page.js";
+import { AT, length } from "./rows.js";
 
 const SPAN_S = 1;
 const KEPT_S = 1.5;
@@ -14,8 +15,11 @@ export class History {
     this.rows = []; // {height, force, frequency, way, heights}
   }
 
-  add(row) {
-    this.rows.push(row);
+  // A tick, and its heights by each method, if they are known.
+  add(row, heights) {
+    const [vx, vy] = row.subarray(AT.velocity, AT.velocity + 2);
+    this.rows.push({ height: row[AT.height], force: length(row), frequency: row[AT.frequency],
+      way: Math.sign(Math.abs(vx) >= Math.abs(vy) ? vx : vy), heights });
     if (this.rows.length > 2 * KEPT_S * this.rate) {
       this.rows.splice(0, this.rows.length - KEPT_S * this.rate);
     }

@@ -20,6 +20,11 @@ addEventListener("securitypolicyviolation", ({ violatedDirective, blockedURI }) 
   refuse(`The server's Content-Security-Policy (${violatedDirective}) forbids ${blockedURI}, which this page needs.`));
 addEventListener("error", ({ target }) => target.src && refuse(`${target.src} could not be loaded.`), true);
 
+// In another page, as a figure: the scene and the methods alone.
+if (new URLSearchParams(location.hash.slice(1)).has("embed")) {
+  document.documentElement.dataset.embed = "1";
+}
+
 if (location.protocol === "file:") {
   refuse("A browser does not run this page from a folder. Serve it: python3 -m http.server, then open http://127.0.0.1:8000/");
 } else if (!new URLSearchParams(location.hash.slice(1)).has("live")) {

@@ -210,7 +210,7 @@ export class View {
     this.renderer.setViewport(0, 0, width, height);
     this.renderer.clear();
     this.renderer.render(this.scene, this.camera);
-    if (this.touched) {
+    if (this.touched && lens.offsetWidth > 0) {
       this.drawLens(lens, height);
     }
   }

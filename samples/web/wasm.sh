@@ -38,9 +38,12 @@ sources=(sdk/src/{vibration,grating,motion,contact,surface,proxy,guard,hip,scene
 # shellcheck disable=SC2016 # the other shell expands it
 printf '%s\n' "${sources[@]}" |
     xargs -P "$(nproc)" -I {} bash -euo pipefail -c 'compile "$1" "$2" "$3"' compile {} "$objects" "${#sources[@]}"
-echo 'linking'
 compiled=("${sources[@]//\//_}")
 compiled=("${compiled[@]/%/.o}")
+printf '%s\n' "${compiled[@]}" >"$objects/linked.new"
+cmp -s "$objects/linked.new" "$objects/linked" || mv "$objects/linked.new" "$objects/linked"
+[ -n "$(find "$objects" "$0" -newer "${objects%/objects}/knurl.wasm" \( -name '*.o' -o -name linked -o -name '*.sh' \))" ] || exit 0
+echo 'linking'
 em++ -O2 -fexceptions "${compiled[@]/#/$objects/}" -o "${objects%/objects}/knurl.mjs" -sMODULARIZE -sEXPORT_ES6 -sENVIRONMENT=web,worker \
     -sALLOW_MEMORY_GROWTH -sMAXIMUM_MEMORY=1GB -sEXPORTED_FUNCTIONS=_malloc,_free \
     -sEXPORTED_RUNTIME_METHODS=UTF8ToString

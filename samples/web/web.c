@@ -181,8 +181,7 @@ static void step_others(const knurl_tick_output *out, float heights[METHODS]) {
 
 /* Ticks at `count` positions (3 doubles each; NaN: no position), with a gain of 0 to 1 on the force. rows: force (3),
  * HIP (3), proxy (3), depth, height, f_t, cycles (2), 1 in contact, surface index or -1, t, vx, vy, fs, normal (3);
- * rows.js names them, and knurl run
- * --view sends the same. heights: by S1, S2 and BANDLIMITED, of the same stroke. */
+ * rows.js names them, and knurl run --view sends the same. heights: by S1, S2 and BANDLIMITED, of the same stroke. */
 EMSCRIPTEN_KEEPALIVE void web_tick(uint32_t count, const double *positions, double gain, double *rows, float *heights) {
     for (uint32_t k = 0; k < count; k++) {
         knurl_tick_input in;

@@ -1,102 +1,47 @@
 // The haptic thread of the page: ticks the scene in WebAssembly at its update rate, and sends the results some 80 times
 // per second. SPDX-License-Identifier: MIT
+import { Knurl, MOST } from "./core.js";
 import { Hand } from "./hand.js";
 import { Inverse3 } from "./inverse3.js";
-import makeKnurl from "./knurl.mjs";
-import { METHODS, ROW } from "./rows.js";
+import { ROW } from "./rows.js";
 
-const MOST = 2000; // ticks, rays or points at once
 const BATCH_MS = 12;
 const GIVE_UP_MS = 100; // longer gaps, such as a tab in the background, are skipped
-const SURFACE = 17; // numbers of a surface
-const SAMPLE_RATE = 48000; // of the voice for actuators
-const MOST_SAMPLES = 96; // a tick, at 500 Hz
+const HANDS = ["stroke", "lift", "hold", "travel"];
+const QUICK = ["depth", "feel", "inverse3", "voice"]; // other messages may take longer than an Inverse3 may wait
 
 // The first message has the compiled WebAssembly; earlier messages are answered once all is ready.
 const early = [];
 const compiled = await new Promise((resolve) => {
   onmessage = (event) => (event.data.kind === "begin" ? resolve(event.data.compiled) : early.push(event));
 });
-const knurl = await makeKnurl({
+const knurl = await Knurl.create({
   instantiateWasm: (imports, done) => {
     WebAssembly.instantiate(compiled, imports).then(done);
     return {};
   },
 });
-const memory = {
-  positions: knurl._malloc(MOST * 6 * 8),
-  rows: knurl._malloc(MOST * ROW * 8),
-  heights: knurl._malloc(MOST * METHODS * 4),
-  samples: knurl._malloc(MOST * MOST_SAMPLES * 4),
-  numbers: knurl._malloc(SURFACE * 8),
-};
-const HANDS = ["stroke", "lift", "hold", "travel"];
-const QUICK = ["depth", "feel", "inverse3", "voice"]; // other messages may take longer than an Inverse3 may wait
-const state = { loaded: false, voice: false, rate: 1000, resolution: 0, protections: 15, last: 0, ms: 0, ticks: 0, owed: 0 };
+const { module, memory } = knurl;
+const hand = new Hand((from, to) => knurl.cast(from, to));
+const state = { loaded: false, settings: {}, last: 0, ms: 0, ticks: 0 };
 
-const doubles = (at, count) => knurl.HEAPF64.slice(at / 8, at / 8 + count);
-const message = (result) => (result ? knurl.UTF8ToString(knurl._web_message()) : "");
-
-// Calls use(address, size) with a copy of the bytes, ended by a 0; undefined without memory for it.
-function withBytes(bytes, use) {
-  const at = knurl._malloc(bytes.length + 1);
-  if (!at) {
-    return undefined;
-  }
-  knurl.HEAPU8.set(bytes, at);
-  knurl.HEAPU8[at + bytes.length] = 0;
+// The error message of something that may fail, or "".
+function errorOf(act) {
   try {
-    return use(at, bytes.length);
-  } finally {
-    knurl._free(at);
+    act();
+    return "";
+  } catch ({ message }) {
+    return message;
   }
 }
 
-const withText = (text, use) => withBytes(new TextEncoder().encode(text), use);
-
-// Calls a function of a file: use(address, size, name). Returns its error message, or "".
-function withFile(bytes, name, use) {
-  const error = withBytes(new Uint8Array(bytes), (at, size) => withText(name, (text) => message(use(at, size, text))));
-  return error ?? `${name}: ${bytes.byteLength} bytes are more than this page has memory for`;
-}
-
-function cast(from, to) {
-  knurl.HEAPF64.set([...from, ...to], memory.numbers / 8);
-  const found = memory.numbers + 6 * 8;
-  return knurl._web_cast(memory.numbers, found) ? { point: [...doubles(found, 3)], normal: [...doubles(found + 24, 3)] } : null;
-}
-
-const hand = new Hand(cast);
-
-function surfaces() {
-  return Array.from({ length: knurl._web_count() }, (_, index) => {
-    const name = knurl.UTF8ToString(knurl._web_surface(index, memory.numbers));
-    const n = [...doubles(memory.numbers, SURFACE)];
-    return { name, feel: n.slice(0, 6), anchor: n.slice(6, 9), normal: n.slice(9, 12), x: n.slice(12, 15), reach: n.slice(15) };
-  });
-}
-
-// The ticks' force for actuators: samples, and the strengths of a gamepad's two motors.
-function speak(count) {
-  state.owed += (count * SAMPLE_RATE) / state.rate;
-  const samples = Math.floor(state.owed);
-  state.owed -= samples;
-  knurl._web_voice_fill(memory.samples, samples, memory.numbers);
-  return { coil: knurl.HEAPF32.slice(memory.samples / 4, memory.samples / 4 + samples), rumble: [...doubles(memory.numbers, 2)] };
-}
-
-// Ticks at positions, three numbers each, with a gain on the force; returns a row per tick, the heights by each method,
-// and what actuators play.
+// Ticks, and what actuators play of them.
 function tick(positions, gain = 1) {
-  const count = positions.length / 3;
-  knurl.HEAPF64.set(positions, memory.positions / 8);
   const started = performance.now();
-  knurl._web_tick(count, memory.positions, gain, memory.rows, memory.heights);
+  const ticks = knurl.tick(positions, gain);
   state.ms += performance.now() - started;
-  state.ticks += count;
-  const at = memory.heights / 4;
-  return { rows: doubles(memory.rows, count * ROW), heights: knurl.HEAPF32.slice(at, at + count * METHODS),
-    ...(state.voice ? speak(count) : {}) };
+  state.ticks += positions.length / 3;
+  return { ...ticks, ...(knurl.hasVoice ? knurl.speak(positions.length / 3) : {}) };
 }
 
 // us per tick, over a thousand or more: clocks of browsers are coarse. Undefined until then.
@@ -122,12 +67,12 @@ function tickOn() {
     state.last = now;
     return;
   }
-  const count = Math.min(MOST, Math.floor(((now - state.last) * state.rate) / 1000));
+  const count = Math.min(MOST, Math.floor(((now - state.last) * knurl.rate) / 1000));
   if (count === 0) {
     return;
   }
-  const ticks = tick(hand.positions(count, state.rate, performance.timeOrigin + state.last));
-  state.last += (count * 1000) / state.rate;
+  const ticks = tick(hand.positions(count, knurl.rate, performance.timeOrigin + state.last));
+  state.last += (count * 1000) / knurl.rate;
   show(ticks);
 }
 
@@ -135,10 +80,10 @@ function tickOn() {
 const device = {
   ticked: [], // to be shown
   get rate() {
-    return state.rate;
+    return knurl.rate;
   },
   begin(model, id) {
-    this.model = model;
+    Object.assign(this, { model, ticked: [] });
     setDevice();
     postMessage({ kind: "inverse3", on: `${model.name} ${id}`, most: model.force });
   },
@@ -171,30 +116,28 @@ const device = {
 };
 
 function setDevice() {
-  const { rate, resolution, protections, voice } = state;
-  knurl._web_voice(voice ? rate : 0, SAMPLE_RATE);
-  return message(knurl._web_device(rate, resolution, protections, device.model?.force ?? 0, device.model?.stiffness ?? 0));
+  return errorOf(() => knurl.setDevice({ ...state.settings, ...device.model }));
 }
 
 function coordinates({ points, depth }) {
   const found = new Float32Array(points.length / 2);
   for (let at = 0; at < points.length; at += 6 * MOST) {
     const some = points.subarray(at, at + 6 * MOST);
-    knurl.HEAPF64.set(some, memory.positions / 8);
-    knurl._web_coordinates(some.length / 6, memory.positions, depth, memory.rows);
-    found.set(knurl.HEAPF32.subarray(memory.rows / 4, memory.rows / 4 + some.length / 2), at / 2);
+    module.HEAPF64.set(some, memory.positions / 8);
+    module._web_coordinates(some.length / 6, memory.positions, depth, memory.rows);
+    found.set(module.HEAPF32.subarray(memory.rows / 4, memory.rows / 4 + some.length / 2), at / 2);
   }
   return { found };
 }
 
 const answers = {
   load: ({ bytes, name }) => {
-    const error = withFile(bytes, name, knurl._web_load);
+    const error = errorOf(() => knurl.load(bytes, name));
     if (!error) {
       state.loaded = true;
       hand.rest();
     }
-    return { error, surfaces: surfaces() };
+    return { error, surfaces: knurl.surfaces() };
   },
   stroke: ({ rays }) => hand.stroke(rays),
   lift: ({ t }) => hand.lift(t),
@@ -203,41 +146,34 @@ const answers = {
     hand.depth = depth;
   },
   travel: ({ way }) => (way ? hand.travel(way) : hand.rest()),
-  feel: ({ index, feel }) => {
-    knurl.HEAPF64.set(feel, memory.numbers / 8);
-    return { error: message(knurl._web_feel(index, memory.numbers)) };
-  },
+  feel: ({ index, feel }) => ({ error: errorOf(() => knurl.setFeel(index, feel)) }),
   device: ({ rate, resolution, protections }) => {
-    Object.assign(state, { rate, resolution, protections });
+    state.settings = { rate, resolution, protections };
     return { error: setDevice() };
   },
-  voice: ({ on }) => {
-    state.voice = on;
-    knurl._web_voice(on ? state.rate : 0, SAMPLE_RATE);
-  },
+  voice: ({ on }) => knurl.setVoice(on),
   inverse3: ({ port, isHidden }) => {
-    if (device.client) {
-      device.client.isHidden = isHidden;
-    }
     if (port && !device.client) {
       device.client = new Inverse3(port, device);
-      device.client.isHidden = isHidden;
     } else if (port === 0) {
       device.client?.end("");
     }
+    if (device.client) {
+      device.client.isHidden = isHidden;
+    }
   },
-  survey: ({ bytes, name }) => ({ error: withFile(bytes, name, knurl._web_survey) }),
+  survey: ({ bytes, name }) => ({ error: errorOf(() => knurl.withFile(bytes, name, module._web_survey)) }),
   coordinates,
-  surveyed: () => knurl._web_survey_end(),
+  surveyed: () => module._web_survey_end(),
   tag: ({ bytes, name, node, tag }) => {
-    const error = withFile(bytes, name, (at, size, text) =>
-      withText(JSON.stringify(tag), (json) => knurl._web_tag(at, size, text, node, json)));
-    const at = knurl._web_written();
-    return { error, bytes: error ? null : knurl.HEAPU8.slice(at, at + knurl._web_written_size()).buffer };
+    const error = errorOf(() => knurl.withFile(bytes, name, (at, size, text) =>
+      knurl.withText(JSON.stringify(tag), (json) => module._web_tag(at, size, text, node, json))));
+    const at = module._web_written();
+    return { error, bytes: error ? null : module.HEAPU8.slice(at, at + module._web_written_size()).buffer };
   },
   // Plays a new device at given positions, as fast as possible: for comparisons.
-  play: ({ positions, ...device }) => {
-    answers.device(device);
+  play: ({ positions, ...settings }) => {
+    answers.device(settings);
     const started = performance.now();
     const ticks = tick(positions);
     return { ...ticks, cost: ((performance.now() - started) * 1000) / (positions.length / 3) };

@@ -3,6 +3,8 @@
 // SPDX-License-Identifier: MIT
 import { complaints, finish, runCase } from "./harness.mjs";
 import { cases as actuators } from "./actuators.mjs";
+import { cases as blind } from "./blind.mjs";
+import { cases as embed } from "./embed.mjs";
 import { cases as equal } from "./equal.mjs";
 import { cases as felt } from "./felt.mjs";
 import { cases as hostile } from "./hostile.mjs";
@@ -19,7 +21,7 @@ const SHORT = ["a stroke by the pointer crosses ridges and pushes back", "arrow 
   "a file without tags is shown; a click gives a part ridges that are felt and saved", "forces are the native tick's, and their sound is played",
   "a hostile file gets a sentence, and what was there goes on"];
 const isChosen = ([name]) => name.includes(process.env.ONLY ?? "") && (!process.env.SHORT || SHORT.includes(name));
-const total = [page, pictures, equal, felt, own, packed, hostile, inverse3, actuators, report, timed].reduce((sum, cases) => sum + Object.keys(cases).length, 0);
+const total = [page, pictures, equal, felt, own, packed, hostile, inverse3, actuators, blind, embed, report, timed].reduce((sum, cases) => sum + Object.keys(cases).length, 0);
 let count = 0;
 let failed = 0;
 
@@ -39,7 +41,7 @@ async function runAll(cases) {
 }
 
 await runAll(Object.entries(timed).filter(isChosen));
-const others = Object.entries({ ...page, ...pictures, ...equal, ...felt, ...own, ...packed, ...hostile, ...inverse3, ...actuators, ...report }).filter(isChosen);
+const others = Object.entries({ ...page, ...pictures, ...equal, ...felt, ...own, ...packed, ...hostile, ...inverse3, ...actuators, ...blind, ...embed, ...report }).filter(isChosen);
 await Promise.all(Array.from({ length: LANES }, () => runAll(others)));
 if (complaints.length > 0) {
   failed++;

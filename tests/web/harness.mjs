@@ -12,7 +12,7 @@ export const { chromium } = await import(pathToFileURL(join(modules, "playwright
 export const root = join(dirname(fileURLToPath(import.meta.url)), "../..");
 export const FLAGS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
   "--disable-background-networking", "--disable-component-update", "--disable-sync", "--enable-unsafe-swiftshader"];
-const TYPES = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".wasm": "application/wasm",
+export const TYPES = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".wasm": "application/wasm",
   ".glb": "model/gltf-binary" };
 
 // A plain file server: no header that a page may not count on.
