@@ -110,6 +110,10 @@ docs() {
     rm -rf build/docs
     build/docs-venv/bin/python -B docs/site/pages.py build/docs/pages
     PYTHONDONTWRITEBYTECODE=1 build/docs-venv/bin/sphinx-build -q -W --keep-going -j auto -c docs/site -d build/docs/work build/docs/pages build/docs/html
+    if [ -f build/web/main.js ]; then # the site gets the page, if it is built, and its links go there
+        cp -r build/web build/docs/html/page
+        sed -i 's|href="http://127.0.0.1:8000/#|href="../page/index.html#|g' build/docs/html/docs/*.html
+    fi
     /usr/bin/python3 -B tests/docs/site.py build/docs/html
     echo 'run: the site is build/docs/html/index.html'
 }

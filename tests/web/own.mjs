@@ -3,7 +3,8 @@ import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
-import { drop, open, page, shown, status, tmp, tool } from "./harness.mjs";
+import { PRESETS } from "../../samples/web/presets.js";
+import { drop, open, page, root, shown, status, tmp, tool } from "./harness.mjs";
 
 // The demo plate without tags.
 export function bare() {
@@ -83,6 +84,21 @@ export const cases = {
     assert.equal(await tab.textContent("#preset-text"), "");
   },
 
+  async "docs/methods.md has a link to each failure that the page plays, and no other"() {
+    const links = [...readFileSync(join(root, "docs/methods.md"), "utf8").matchAll(/^\[(\w+)\]: http:\/\/127\.0\.0\.1:8000\/#(.*)$/gm)];
+    const presets = links.map(([, , hash]) => new URLSearchParams(hash).get("preset")).filter(Boolean);
+    assert.deepEqual(presets.toSorted(), PRESETS.map(({ title }) => title.toLowerCase().replace(/[^a-z0-9]+/g, "-")).toSorted());
+    const text = readFileSync(join(root, "docs/methods.md"), "utf8");
+    links.forEach(([, name]) => assert.ok(text.includes(`][${name}]`), `${name} is used`));
+    for (const [, , hash] of links.filter(([, , words]) => !words.startsWith("preset"))) {
+      const tab = await open({ hash: `#${hash}` });
+      for (const [id, value] of new URLSearchParams(hash)) {
+        assert.equal(await tab.evaluate((name) => (name === "method" ? document.getElementById("controls").elements.method
+          : document.getElementById(name)).value, id), value, hash);
+      }
+    }
+  },
+
   async "a failure's link plays the same ticks in a fresh browser"() {
     const places = [];
     for (let i = 0; i < 2; i++) {
@@ -108,33 +124,56 @@ export const cases = {
     await tab.waitForFunction(() => /force0\.[^0]/.test(document.querySelector("#numbers").textContent));
   },
 
-  async "twenty models leave nothing behind"() {
-    const tab = await open({ before: (bare_) => bare_.addInitScript(() => {
-      globalThis.held = { Buffer: 0, Texture: 0 };
-      for (const kind of Object.keys(globalThis.held)) {
-        for (const [act, change] of [["create", 1], ["delete", -1]]) {
-          const real = WebGL2RenderingContext.prototype[act + kind];
-          WebGL2RenderingContext.prototype[act + kind] = function (...rest) {
-            globalThis.held[kind] += change;
-            return real.apply(this, rest);
-          };
+  // MODELS=100 for a long run
+  async "many models leave nothing behind"() {
+    const more = Number(process.env.MODELS ?? 12) - 1;
+    const tab = await open({ before: async (bare_) => {
+      await bare_.addInitScript(() => {
+        globalThis.held = { Buffer: 0, Texture: 0 };
+        for (const kind of Object.keys(globalThis.held)) {
+          for (const [act, change] of [["create", 1], ["delete", -1]]) {
+            const real = WebGL2RenderingContext.prototype[act + kind];
+            WebGL2RenderingContext.prototype[act + kind] = function (...rest) {
+              globalThis.held[kind] += change;
+              return real.apply(this, rest);
+            };
+          }
         }
-      }
-    }) });
+      });
+      await bare_.route("**/worker.js", async (route) => { // notes the memory of WebAssembly
+        const answer = await route.fetch();
+        await route.fulfill({ response: answer, body: `const { instantiate } = WebAssembly; WebAssembly.instantiate = async (...all) => {
+          const made = await instantiate(...all);
+          globalThis.wasm = Object.values(made.exports).find((part) => part instanceof WebAssembly.Memory);
+          return made; };${await answer.text()}` });
+      });
+    } });
+    const session = await tab.context().newCDPSession(tab);
     const load = async (name) => {
       await tab.evaluate(() => { delete document.documentElement.dataset.surveyed; });
       await drop(tab, readFileSync(join(page, "assets", name)), name);
       await tab.waitForSelector("html[data-surveyed]");
-      await tab.waitForTimeout(100);
-      return tab.evaluate(() => ({ ...globalThis.held }));
+      await tab.waitForTimeout(50);
     };
-    await load("grid_2d.glb");
-    const first = await load("plate_1d.glb");
-    for (let i = 0; i < 9; i++) {
-      await load("grid_2d.glb");
+    const held = async () => {
+      await tab.waitForTimeout(200);
+      await session.send("HeapProfiler.collectGarbage");
+      const { usedSize } = await session.send("Runtime.getHeapUsage");
+      return { ...await tab.evaluate(() => globalThis.held), heap: usedSize / 1e6, wasm: await tab.workers()[0].evaluate(() => globalThis.wasm.buffer.byteLength / 1e6) };
+    };
+    const names = ["grid_2d.glb", "knurled_handle.glb", "plate_1d.glb"];
+    for (const name of [...names, ...names]) {
+      await load(name);
     }
-    assert.deepEqual(await load("plate_1d.glb"), first);
-    console.log(`  ${first.Buffer} buffers and ${first.Texture} textures, after 2 models and after 12`);
+    const first = await held();
+    for (let i = 0; i < more; i++) {
+      await load(names[(i + 2 * more) % 3]); // the last one is the first's
+    }
+    const last = await held();
+    const told = ({ Buffer: buffers, Texture, heap, wasm }) => `${buffers} buffers, ${Texture} textures, heap ${heap.toFixed(1)} MB, WebAssembly ${wasm.toFixed(1)} MB`;
+    console.log(`  after 6 models: ${told(first)}; after ${6 + more}: ${told(last)}`);
+    assert.deepEqual([last.Buffer, last.Texture, last.wasm], [first.Buffer, first.Texture, first.wasm]);
+    assert.ok(last.heap < first.heap + 1, "the heap grows by less than 1 MB");
   },
 
   async "the sliders are those of the surface that is stroked, and its ridges follow"() {

@@ -1,7 +1,7 @@
 // The page's features: strokes, keys, links, the failures' catalogue, tags; accessible without sight or a mouse.
 // SPDX-License-Identifier: MIT
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { drop, modules, open, page, recorded, shown, status, strokeAcross, tmp } from "./harness.mjs";
 
@@ -179,21 +179,36 @@ export const cases = {
     }
   },
 
-  async "every control is reached by the tabulator, and seen to be"() {
+  async "by keyboard alone every control is reached, seen to be, and has a name, a role and a value"() {
     const tab = await open();
     await unfold(tab);
+    const session = await tab.context().newCDPSession(tab);
     const wanted = await tab.evaluate(() => [...document.querySelectorAll("canvas[tabindex], select, input, button, summary, pre")]
-      .filter((e) => !e.disabled && e.checkVisibility() && (e.type !== "radio" || e.checked)).map((e) => e.id || e.name || e.tagName));
-    const reached = [];
+      .filter((e) => !e.disabled && e.checkVisibility() && (e.type !== "radio" || e.checked)).map((e) => e.id || e.name || e.textContent));
+    const [reached, walk] = [[], []];
     for (let i = 0; i < wanted.length; i++) {
       await tab.keyboard.press("Tab");
-      const [id, outline] = await tab.evaluate(() => [document.activeElement.id || document.activeElement.name ||
-        document.activeElement.tagName, getComputedStyle(document.activeElement).outlineStyle]);
+      const { result } = await session.send("Runtime.evaluate", { expression: "document.activeElement" });
+      const { nodes: [{ name, role, value, properties }] } = await session.send("Accessibility.getPartialAXTree",
+        { objectId: result.objectId, fetchRelatives: false });
+      const [id, outline, kind] = await tab.evaluate(() => [document.activeElement.id || document.activeElement.name ||
+        document.activeElement.textContent, getComputedStyle(document.activeElement).outlineStyle, document.activeElement.type]);
+      const state = (key) => properties.find((one) => one.name === key)?.value.value;
+      const said = state("valuetext") || value?.value || state("pressed") || state("checked") || (state("expanded") === undefined ? "" : `expanded ${state("expanded")}`);
       reached.push(id);
+      walk.push(`${role.value}: ${name.value}${said === "" ? "" : ` = ${said}`}`);
       assert.notEqual(outline, "none", `${id} has no outline`);
+      assert.ok(name.value && role.value !== "generic", `${id}: ${role.value}, ${name.value}`);
+      assert.ok(!["range", "radio", "select-one"].includes(kind) || said !== "", `${id} has no value`);
+      if (kind === "range") { // it moves by a key, and says so
+        const before = await tab.getAttribute(`#${id}`, "aria-valuetext");
+        await tab.keyboard.press(await tab.evaluate(() => document.activeElement.value === document.activeElement.max) ? "ArrowLeft" : "ArrowRight");
+        assert.notEqual(await tab.getAttribute(`#${id}`, "aria-valuetext"), before, id);
+      }
     }
+    writeFileSync(join(tmp, "walk.txt"), `${walk.join("\n")}\n`);
     assert.deepEqual(reached, wanted);
-    assert.ok(wanted.length >= 23, `${wanted.length} controls`);
+    assert.ok(wanted.length >= 60, `${wanted.length} controls`);
   },
 
   async "every control has a name, a role and a value, and a target of 24 px"() {

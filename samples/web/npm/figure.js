@@ -31,7 +31,11 @@ export class KnurlFigure extends HTMLElement {
     this.attachShadow({ mode: "open" }).innerHTML = `<style>${STYLE}</style><canvas id="ridges" role="img"></canvas><div id="cards"></div>
       <label>Speed <input type="range" min="0.02" max="1" step="0.001"><output></output></label><p role="status"></p>`;
     [this.speed, this.said] = ["input", "label output"].map((part) => this.shadowRoot.querySelector(part));
-    this.speed.addEventListener("input", () => this.move());
+    this.speed.addEventListener("input", () => {
+      this.isMoving = true;
+      this.move();
+    });
+    this.isMoving = !matchMedia("(prefers-reduced-motion: reduce)").matches;
     this.shown = new IntersectionObserver(([{ isIntersecting }]) => { this.isShown = isIntersecting; });
   }
 
@@ -99,7 +103,7 @@ export class KnurlFigure extends HTMLElement {
   draw(now) {
     this.frame = requestAnimationFrame((next) => this.draw(next));
     const late = now - (this.at ?? now);
-    if (!this.isShown || late > LONGEST_MS || late < 0) {
+    if (!this.isShown || !this.isMoving || late > LONGEST_MS || late < 0) {
       this.at = now;
       return;
     }
