@@ -160,7 +160,7 @@ export class Settings {
 
   // Strokes the surface to and fro: as the failure that is chosen says, or slowly.
   move() {
-    if (!surface()) {
+    if (!surface() || $("ghost").disabled) { // a device is the hand
       return;
     }
     const preset = PRESETS[$("preset").value];

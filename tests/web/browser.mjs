@@ -19,7 +19,9 @@ import { cases as timed } from "./timed.mjs";
 const LANES = 2;
 const SHORT = ["a stroke by the pointer crosses ridges and pushes back", "arrow keys stroke", "axe finds nothing, in light and dark",
   "a file without tags is shown; a click gives a part ridges that are felt and saved", "forces are the native tick's, and their sound is played",
-  "a hostile file gets a sentence, and what was there goes on"];
+  "a hostile file gets a sentence, and what was there goes on",
+  "each fault of an Inverse3's messages takes the force away at once, and it ramps up again",
+  "an Inverse3 gets no force after 5 ms without an answer, nor in a hidden tab, and late answers are left out"];
 const isChosen = ([name]) => name.includes(process.env.ONLY ?? "") && (!process.env.SHORT || SHORT.includes(name));
 const total = [page, pictures, equal, felt, own, packed, hostile, inverse3, actuators, blind, embed, report, timed].reduce((sum, cases) => sum + Object.keys(cases).length, 0);
 let count = 0;

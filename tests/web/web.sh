@@ -13,4 +13,4 @@ if [ -z "${KNURL_WEB_ALL:-}" ]; then
     export SHORT=1
     echo 'SKIPPED: most cases of the page in a browser: ./run test web runs them all'
 fi
-node "$1/tests/web/browser.mjs" "$page" "$modules" "$2" "$3" "$browser" | sed 's/^/web: /'
+node "$1/tests/web/browser.mjs" "$page" "$modules" "$2" "$3" "$browser" | sed -u 's/^/web: /'
