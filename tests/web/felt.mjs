@@ -196,7 +196,8 @@ export const cases = {
     await tab.waitForFunction(() => /force0\.00.*f_t0 Hz/.test(document.querySelector("#numbers").textContent));
     const [pulses, crossed] = [await tab.evaluate(() => globalThis.pulses), parseFloat(await shown(tab, "cycles crossed"))];
     console.log(`  ${pulses} pulses for ${crossed} ridges`);
-    assert.ok(crossed > 10 && Math.abs(pulses - crossed) <= 3, `${pulses} of ${crossed}`);
+    // a batch that a busy machine delays has one pulse for its ridges
+    assert.ok(crossed > 10 && Math.abs(pulses - crossed) <= 3 + 0.1 * crossed, `${pulses} of ${crossed}`);
     const desktop = await open();
     assert.equal(await desktop.isVisible("#vibrate"), false);
   },
