@@ -9,6 +9,7 @@
 static void try_message(const uint8_t *data, size_t size) {
     knurl_inverse3_state state;
     knurl_inverse3_grip grip;
+    EXPECT(knurl_inverse3_read_brake((const char *)data, size, "049D") <= 1);
     if (!knurl_inverse3_read((const char *)data, size, &state)) {
         return;
     }

@@ -115,7 +115,8 @@ enum {
     X(KNURL_FORCE_OFF_CABLE, 5, "its cable was unplugged; press its force button, or open it again")                   \
     X(KNURL_FORCE_OFF_DEADMAN, 6, "its grip was released; hold it, and press its force button")                        \
     X(KNURL_FORCE_OFF_POWER, 7, "its power supply is unplugged; plug it in")                                           \
-    X(KNURL_FORCE_OFF_NOT_READY, 8, "its maker's service reports that it is not ready; the Haply Hub shows why")
+    X(KNURL_FORCE_OFF_NOT_READY, 8, "its maker's service reports that it is not ready; the Haply Hub shows why")       \
+    X(KNURL_FORCE_OFF_BRAKE, 9, "its emergency brake is on; the Haply Hub shows how to release it")
 
 enum {
 #define KNURL_FORCE_OFF_ENUMERATOR(code, number, text) code = (number),

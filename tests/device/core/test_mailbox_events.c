@@ -280,7 +280,8 @@ TEST(why_a_device_has_switched_its_forces_off_has_a_sentence) {
                  {KNURL_FORCE_OFF_DEADMAN, "released"},
                  {KNURL_FORCE_OFF_POWER, "power supply"},
                  {KNURL_FORCE_OFF_NOT_READY, "is not ready"},
-                 {9.0, "no reason given"},
+                 {KNURL_FORCE_OFF_BRAKE, "emergency brake"},
+                 {10.0, "no reason given"},
                  {-1.0, "no reason given"},
                  {(double)NAN, "no reason given"},
                  {1e300, "no reason given"}};

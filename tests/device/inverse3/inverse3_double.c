@@ -19,6 +19,7 @@ static struct {
     int connections;
     const char *said; /* instead of every answer */
     size_t said_size;
+    const char *event; /* to be told at the port of events; or null */
     uint64_t random;
     int64_t due[QUEUE]; /* ns: when answers come */
     uint32_t first, count;
@@ -104,17 +105,32 @@ static void channel_close(void *self) {
     knurl_system_mutex_unlock(&d.mutex);
 }
 
+static int event_receive(void *self, int milliseconds, knurl_inverse3_message *message) {
+    (void)self;
+    (void)milliseconds;
+    knurl_system_mutex_lock(&d.mutex);
+    const int came = d.event != NULL;
+    message->text = d.event;
+    message->size = came ? strlen(d.event) : 0;
+    d.event = NULL;
+    knurl_system_mutex_unlock(&d.mutex);
+    return came;
+}
+
 static int service_connect(void *user, int port, knurl_inverse3_channel *channel, char *why, size_t why_size) {
-    const knurl_inverse3_channel opened = {&d, channel_send, channel_receive, channel_close};
+    const int is_events = port == 10020;
+    const knurl_inverse3_channel opened = {&d, channel_send, is_events ? event_receive : channel_receive,
+                                           channel_close};
     (void)user;
-    (void)port;
     (void)snprintf(why, why_size, "conn fail: 111");
     knurl_system_mutex_lock(&d.mutex);
     const int works = !d.is_ended;
     if (works) {
         d.connections++;
-        d.first = d.count = 0;
-        answer(inverse3_sim_greet(&d.sim, seconds(), d.newest));
+        if (!is_events) {
+            d.first = d.count = 0;
+            answer(inverse3_sim_greet(&d.sim, seconds(), d.newest));
+        }
         *channel = opened;
     }
     knurl_system_mutex_unlock(&d.mutex);
@@ -160,6 +176,12 @@ void inverse3_double_say(const char *text, size_t size) {
     knurl_system_mutex_lock(&d.mutex);
     d.said = text;
     d.said_size = size;
+    knurl_system_mutex_unlock(&d.mutex);
+}
+
+void inverse3_double_tell(const char *event) {
+    knurl_system_mutex_lock(&d.mutex);
+    d.event = event;
     knurl_system_mutex_unlock(&d.mutex);
 }
 

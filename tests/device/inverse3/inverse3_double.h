@@ -24,6 +24,9 @@ const knurl_inverse3_service *inverse3_double_service(void);
 /** Replaces every answer from now on; null: real answers. */
 void inverse3_double_say(const char *text, size_t size);
 
+/** The next event at its other port. */
+void inverse3_double_tell(const char *event);
+
 /** Connections that are open. */
 int inverse3_double_connections(void);
 

@@ -447,6 +447,37 @@ TEST(without_power_or_not_ready_it_gets_zero_force_and_the_force_comes_back_by_a
     }
 }
 
+#define SAFETY(id, type)                                                                                               \
+    "{\"name\":\"device-safety-triggered\",\"category\":\"device\",\"level\":\"error\",\"data\":{\"device_family\":"   \
+    "\"inverse\",\"device_id\":\"" id "\",\"safety_type\":\"" type "\"},\"message\":\"\"}"
+
+/* As https://docs.haply.co/inverseSDK/service/events has it; another device's brake, and other events, do nothing. */
+TEST(its_emergency_brake_is_an_event_and_the_force_comes_back_by_a_ramp) {
+    double value = -1.0;
+    knurl_loop *loop = NULL;
+    SCOPED_DEVICE *device = open_in_loop(&loop);
+    (void)count_events(device, 0, &value);
+    inverse3_double_tell(SAFETY("0A11", "ebrake_triggered"));
+    wait_ms(20);
+    inverse3_double_tell(SAFETY("049D", "stall_detected"));
+    wait_ms(20);
+    inverse3_double_tell("{\"name\":7");
+    wait_ms(20);
+    CHECK_CLOSE(look().force[2], 2.0, 1e-12);
+    inverse3_double_tell(SAFETY("049D", "ebrake_triggered"));
+    wait_ms(100);
+    assert_int_equal(count_events(device, KNURL_FAULT_FORCE_OFF, &value), 1);
+    CHECK_SAME(value, (long double)KNURL_FORCE_OFF_BRAKE);
+    CHECK_SAME(look().told[2], 0.0L);
+    make_ready(1); /* forgets the rise at the start */
+    inverse3_double_tell(SAFETY("049D", "ebrake_released"));
+    wait_ms(200);
+    assert_int_equal(count_events(device, KNURL_FAULT_RESUMED, &value), 1);
+    CHECK_CLOSE(look().force[2], 2.0, 1e-12);
+    assert_true(look().greatest_rise <= 0.2);
+    knurl_loop_destroy(loop);
+}
+
 TEST(a_state_that_leaves_the_device_out_once_changes_nothing) {
     double value = 0.0;
     knurl_loop *loop = NULL;

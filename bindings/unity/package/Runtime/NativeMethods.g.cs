@@ -736,7 +736,7 @@ namespace Knurl
         internal const string Library = "knurl_unity";
 
         /// <summary>The result of knurl_unity_interface() of the library that this file was generated for.</summary>
-        internal const string Interface = "64f41d53568b6d98";
+        internal const string Interface = "7f906dbfcfd98fe4";
 
         internal const string Version = "0.3.0";
 
@@ -897,6 +897,7 @@ namespace Knurl
         internal const int KNURL_FORCE_OFF_DEADMAN = 6;
         internal const int KNURL_FORCE_OFF_POWER = 7;
         internal const int KNURL_FORCE_OFF_NOT_READY = 8;
+        internal const int KNURL_FORCE_OFF_BRAKE = 9;
         internal const int KNURL_EFFECT_SPRING = 1;
         internal const int KNURL_EFFECT_DETENT = 2;
         internal const int KNURL_EFFECT_DAMPER = 3;

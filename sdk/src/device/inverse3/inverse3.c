@@ -18,6 +18,7 @@
 
 #define NATIVE_RATE 1000.0  /* Hz; the service allows more, up to 4000 */
 #define PORT        10001   /* the service's default */
+#define EVENTS_PORT 10020   /* the same for its events */
 #define ANSWER_NS   5000000 /* to wait for an answer in an exchange */
 #define HELLO_MS    500     /* to wait for a first message, and for the first answer */
 
@@ -50,6 +51,7 @@ typedef struct inverse3 {
     knurl_link link;
     const knurl_inverse3_service *service;
     knurl_inverse3_channel channel;
+    knurl_inverse3_channel events; /* self: null if the service has none */
     int port;
     char id[KNURL_INVERSE3_ID_ROOM];   /* "": the first */
     char grip[KNURL_INVERSE3_ID_ROOM]; /* the handle's; "": the first */
@@ -59,6 +61,7 @@ typedef struct inverse3 {
     /* of the I/O thread */
     uint32_t unanswered; /* messages sent but not answered; each is answered once, in order */
     uint32_t left_out;   /* consecutive states without the device */
+    uint32_t is_braked;  /* 1: by an event of its emergency brake */
     uint32_t is_empty;   /* 1: the handle's battery is almost empty, and was reported */
 } inverse3;
 
@@ -93,12 +96,15 @@ static int report_corrupt(inverse3 *d, const knurl_inverse3_message *message) {
 }
 
 /* KNURL_FAULT_ why it plays no forces, and the cause if it is KNURL_FAULT_FORCE_OFF; 0 if it plays them. */
-static int32_t find_trouble(const knurl_inverse3_entry *entry, int32_t *cause) {
+static int32_t find_trouble(const inverse3 *d, const knurl_inverse3_entry *entry, int32_t *cause) {
     *cause = 0;
     if (entry->is_uncalibrated && !entry->is_unpowered) {
         return KNURL_FAULT_UNCALIBRATED;
     }
-    *cause = entry->is_unpowered ? KNURL_FORCE_OFF_POWER : entry->is_not_ready ? KNURL_FORCE_OFF_NOT_READY : 0;
+    *cause = entry->is_unpowered   ? KNURL_FORCE_OFF_POWER
+             : d->is_braked        ? KNURL_FORCE_OFF_BRAKE
+             : entry->is_not_ready ? KNURL_FORCE_OFF_NOT_READY
+                                   : 0;
     return *cause ? KNURL_FAULT_FORCE_OFF : 0;
 }
 
@@ -139,8 +145,16 @@ static int take_state(inverse3 *d, const knurl_inverse3_message *message, knurl_
         sample->joints[i] = RADIAN * entry->joints[i];
     }
     take_grip(d, &state, sample);
-    const int32_t trouble = find_trouble(entry, &cause);
+    const int32_t trouble = find_trouble(d, entry, &cause);
     return knurl_link_take_trouble(&d->link, trouble, cause);
+}
+
+/* Of events that come within one exchange the last one counts. If the service ends, its brake's state is unknown. */
+static void hear_events(inverse3 *d) {
+    knurl_inverse3_message message = {NULL, 0};
+    const int came = d->events.self ? d->events.receive(d->events.self, 0, &message) : 0;
+    const int brake = came > 0 ? knurl_inverse3_read_brake(message.text, message.size, d->id) : came < 0 ? 0 : -1;
+    d->is_braked = brake >= 0 ? (uint32_t)brake : d->is_braked;
 }
 
 static int exchange(knurl_device *device, const double force[3], knurl_device_sample *sample) {
@@ -152,6 +166,7 @@ static int exchange(knurl_device *device, const double force[3], knurl_device_sa
         return KNURL_LINK_LOST;
     }
     count_answers(d, came);
+    hear_events(d);
     const int64_t until = knurl_system_now_ns() + ANSWER_NS;
     if (!d->channel.send(d->channel.self, text, knurl_inverse3_command(text, d->id, force, ""))) {
         return await_answer(d, until, &message) == KNURL_LINK_LOST ? KNURL_LINK_LOST : KNURL_LINK_NOTHING;
@@ -168,6 +183,10 @@ static void disconnect(inverse3 *d) {
     if (d->channel.self) {
         d->channel.close(d->channel.self);
         d->channel.self = NULL;
+    }
+    if (d->events.self) {
+        d->events.close(d->events.self);
+        d->events.self = NULL;
     }
 }
 
@@ -257,10 +276,14 @@ static knurl_result configure(inverse3 *d) {
 
 static knurl_result connect(inverse3 *d) {
     knurl_inverse3_state state;
-    d->left_out = 0;
+    char ignored[160];
+    d->left_out = d->is_braked = 0;
     knurl_result result = receive_first(d->service, d->port, &d->channel, &state);
     result = result ? result : choose(d, &state);
     result = result ? result : configure(d);
+    if (!result) { /* without it all else works */
+        (void)d->service->connect(d->service->user, EVENTS_PORT, &d->events, ignored, sizeof ignored);
+    }
     result = result ? result : knurl_link_open(&d->link, &d->base, exchange, NATIVE_RATE);
     if (result) {
         disconnect(d);

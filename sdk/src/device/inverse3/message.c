@@ -102,6 +102,13 @@ int knurl_inverse3_read(const char *text, size_t size, knurl_inverse3_state *sta
     return 0;
 }
 
+int knurl_inverse3_read_brake(const char *text, size_t size, const char *id) {
+    (void)text;
+    (void)size;
+    (void)id;
+    return -1;
+}
+
 #else
 
 #define JSMN_STATIC
@@ -273,17 +280,36 @@ static void take_grips(const json *j, knurl_inverse3_state *state) {
     }
 }
 
+/* Returns 1 if the text is one JSON object. */
+static int parse(json *j, const char *text, size_t size) {
+    jsmn_parser parser;
+    jsmn_init(&parser);
+    j->text = text;
+    j->count = size > KNURL_INVERSE3_LONGEST ? 0 : jsmn_parse(&parser, text, size, j->tokens, TOKENS);
+    return j->count > 0 && j->tokens[0].type == JSMN_OBJECT && behind(j, 0) == j->count;
+}
+
+static int is_text(const json *j, int at, const char *text) {
+    return at != NONE && j->tokens[at].type == JSMN_STRING && has_text(j, at, text);
+}
+
+int knurl_inverse3_read_brake(const char *text, size_t size, const char *id) {
+    json j;
+    if (!parse(&j, text, size) || !is_text(&j, member(&j, 0, "name"), "device-safety-triggered")) {
+        return -1;
+    }
+    const int data = member(&j, 0, "data");
+    const int type = member(&j, data, "safety_type");
+    return !is_text(&j, member(&j, data, "device_id"), id) ? -1
+           : is_text(&j, type, "ebrake_triggered")         ? 1
+           : is_text(&j, type, "ebrake_released")          ? 0
+                                                           : -1;
+}
+
 int knurl_inverse3_read(const char *text, size_t size, knurl_inverse3_state *state) {
     json j;
-    jsmn_parser parser;
     memset(state, 0, sizeof *state);
-    if (size > KNURL_INVERSE3_LONGEST) {
-        return 0;
-    }
-    jsmn_init(&parser);
-    j.text = text;
-    j.count = jsmn_parse(&parser, text, size, j.tokens, TOKENS);
-    if (j.count < 1 || j.tokens[0].type != JSMN_OBJECT || behind(&j, 0) != j.count) {
+    if (!parse(&j, text, size)) {
         return 0;
     }
     const int devices = member(&j, 0, "inverse3");

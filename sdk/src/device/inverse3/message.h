@@ -45,6 +45,10 @@ typedef struct knurl_inverse3_state {
 /* Reads a message. Returns 0 if it is not a JSON object. Fields that are missing or invalid are 0 or "". */
 int knurl_inverse3_read(const char *text, size_t size, knurl_inverse3_state *state);
 
+/* Reads an event of the service: 1 if the emergency brake of the device with this id is on now, 0 if it is released, -1
+ * for other events and anything else. */
+int knurl_inverse3_read_brake(const char *text, size_t size, const char *id);
+
 /* The entry with this id, or the first if id is ""; null if there is no such entry. */
 const knurl_inverse3_entry *knurl_inverse3_find(const knurl_inverse3_state *state, const char *id);
 
