@@ -22,6 +22,7 @@ namespace Knurl.Editing
             internal KnurlGrating Grating;
             internal long Version;
             internal int Made;
+            internal Vector3 Scale; // of the layout
             internal readonly Stripes Stripes = new Stripes();
             internal Vector3[] Segments;
             internal int Every;
@@ -88,9 +89,9 @@ namespace Knurl.Editing
                 Read(drawing, mesh);
                 drawing.Grating = grating;
                 drawing.Version = grating.Version;
-                drawing.Made = surface.Made;
                 stripes.ToWorld = place;
-                stripes.Layout = new SurfaceLayout(surface);
+                FindLayout(drawing, surface);
+                drawing.Made = surface.Made;
                 stripes.Axis = surface.Axis;
                 stripes.SpatialFrequency = grating.SpatialFrequency;
                 stripes.Orientation = grating.Orientation;
@@ -99,11 +100,25 @@ namespace Knurl.Editing
             return drawing;
         }
 
+        /// <summary>The library takes a while with large meshes: not for each move of the object.</summary>
+        static void FindLayout(Drawing drawing, KnurlSurface surface)
+        {
+            Vector3 scale = surface.transform.lossyScale;
+            SurfaceLayout known = drawing.Stripes.Layout;
+            bool isSame = known != null && known.Coordinates != "" && drawing.Made == surface.Made && drawing.Scale == scale;
+            if (!isSame && drawing.Stripes.Triangles.Length / 3 <= MostTriangles)
+            {
+                drawing.Stripes.Layout = new SurfaceLayout(surface);
+                drawing.Scale = scale;
+            }
+        }
+
         static void Read(Drawing drawing, Mesh mesh)
         {
             if (drawing.Mesh != mesh)
             {
                 drawing.Mesh = mesh;
+                drawing.Stripes.Layout = null;
                 drawing.Stripes.Read(mesh);
             }
         }

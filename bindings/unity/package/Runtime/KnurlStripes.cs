@@ -77,6 +77,10 @@ namespace Knurl
             {
                 Lay(mesh);
             }
+            if (overlay == null)
+            {
+                return; // without the library, or scaled to nothing
+            }
             material.SetColor("_Ridge", ridge);
             material.SetColor("_Groove", groove);
             Graphics.DrawMesh(overlay, transform.localToWorldMatrix, material, gameObject.layer, eye, 0, null,
