@@ -19,13 +19,17 @@ if(NOT BUILD_SHARED_LIBS)
     string(APPEND KNURL_PC_LIBS " -l${CMAKE_DL_LIBS}")
   endif()
 endif()
+set(_here $ORIGIN) # the folder of the file that needs a library
+if(APPLE)
+  set(_here @loader_path)
+endif()
 foreach(library ${_libraries})
   install(TARGETS ${library} EXPORT ${library}
     RUNTIME COMPONENT runtime
     LIBRARY COMPONENT runtime NAMELINK_COMPONENT dev
     ARCHIVE COMPONENT dev)
   install(EXPORT ${library} NAMESPACE knurl:: FILE ${library}-targets.cmake DESTINATION ${_package} COMPONENT dev)
-  set_target_properties(${library} PROPERTIES INSTALL_RPATH $ORIGIN)
+  set_target_properties(${library} PROPERTIES INSTALL_RPATH ${_here})
   configure_file(cmake/${library}.pc.in ${library}.pc @ONLY)
   install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${library}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT dev)
 endforeach()
@@ -53,7 +57,7 @@ if(TARGET knurl_tool)
   foreach(program knurl_tool knurl_study_tool) # the tool runs the other one
     if(TARGET ${program})
       if(BUILD_SHARED_LIBS)
-        set_target_properties(${program} PROPERTIES INSTALL_RPATH $ORIGIN/${_up})
+        set_target_properties(${program} PROPERTIES INSTALL_RPATH ${_here}/${_up})
       endif()
       install(TARGETS ${program} RUNTIME COMPONENT tool OPTIONAL)
     endif()

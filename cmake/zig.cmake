@@ -4,7 +4,11 @@ set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES KNURL_ZIG_TARGET)
 string(REGEX MATCH "^[^-]+" CMAKE_SYSTEM_PROCESSOR ${KNURL_ZIG_TARGET})
 if(KNURL_ZIG_TARGET MATCHES macos)
   set(CMAKE_SYSTEM_NAME Darwin)
-  set(CMAKE_INSTALL_NAME_TOOL true) # not needed: binaries are not renamed at installation
+  set(CMAKE_USER_MAKE_RULES_OVERRIDE ${CMAKE_CURRENT_LIST_FILE}) # to be read again after CMake's own rules,
+  set(CMAKE_SHARED_LIBRARY_RUNTIME_C_FLAG "-Wl,-rpath,") # which use @rpath only if sw_vers tells a new enough macOS
+  set(CMAKE_BUILD_WITH_INSTALL_RPATH ON) # files are installed as they were linked, and signed: nothing here could sign again
+  set(CMAKE_INSTALL_NAME_TOOL true)
+  set(CMAKE_STRIP true)
 elseif(KNURL_ZIG_TARGET MATCHES windows)
   set(CMAKE_SYSTEM_NAME Windows)
 else()

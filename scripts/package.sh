@@ -155,17 +155,22 @@ date_sources() {
     export SOURCE_DATE_EPOCH
 }
 
-# Builds the archive for Linux. usage: release_archive OUT VERSION ARCH [OPTION...]: CMake's, for the toolchain
-release_archive() {
-    local out=$1 name=knurl-$2-linux-$3 folder=build/archive-$3 log=build/package.log
-    shift 3
+# Builds what an archive contains: the tool, shared libraries. usage: build_shared NAME [OPTION...]: CMake's, for the
+# toolchain     In build/archive-NAME.
+build_shared() {
+    local name=$1 folder=build/archive-$1 log=build/package.log
+    shift
     CFLAGS="-ffile-prefix-map=$PWD=." CXXFLAGS="-ffile-prefix-map=$PWD=." \
         cmake -G Ninja -S . -B "$folder" -DCMAKE_BUILD_TYPE=Release -DCMAKE_C_FLAGS_RELEASE='-O3 -g1' \
         -DCMAKE_CXX_FLAGS_RELEASE='-O2 -g1' -DBUILD_SHARED_LIBS=ON -DBUILD_TESTING=OFF -DKNURL_VIEW=OFF -DKNURL_PICTURES=OFF \
         -DCMAKE_INSTALL_LIBDIR=lib -DCMAKE_BUILD_RPATH_USE_ORIGIN=ON "$@" >"$log" 2>&1 &&
-        with_progress "building $name" "$log" cmake --build "$folder" &&
-        packages/linux.sh "$out" "$name" "$folder" build/release/knurl build/docs/html >>"$log" 2>&1 ||
-        { tail -n 20 "$log" >&2; exit 1; }
+        with_progress "building the archive for $name" "$log" cmake --build "$folder" || { tail -n 20 "$log" >&2; exit 1; }
+}
+
+# usage: release_archive OUT NAME BUILD [OTHER]: see packages/archive.sh
+release_archive() {
+    packages/archive.sh "$1" "$2" build/release/knurl build/docs/html "${@:3}" >>build/package.log 2>&1 ||
+        { tail -n 20 build/package.log >&2; exit 1; }
 }
 
 # Makes the Python package's own source archive, with the same bytes each time, and unpacks it into build/python-source.
@@ -183,34 +188,42 @@ release_python_source() {
     mv "$made/$name" build/python-source
 }
 
-# Builds the wheel, from build/python-source. usage: release_wheel OUT ARCH [OPTION...]: as above
+# Builds a wheel from build/python-source. usage: release_wheel OUT PLATFORM TARGET     PLATFORM: Python's name, such as
+# linux-x86_64; TARGET: Zig's, or nothing for this machine
 release_wheel() {
-    local out=$1 arch=$2 log=build/package.log
-    shift 2
-    KNURL_BUILD_FOLDER=$PWD/build/wheel-$arch _PYTHON_HOST_PLATFORM=linux-$arch CMAKE_GENERATOR=Ninja CMAKE_ARGS="$*" \
-        with_progress "building the wheel for $arch" "$log" /usr/bin/python3 -m pip wheel --no-build-isolation --no-deps \
-        --no-index --wheel-dir "$out" build/python-source || { tail -n 20 "$log" >&2; exit 1; }
+    local log=build/package.log options=()
+    [ -z "$3" ] || options=("-DCMAKE_TOOLCHAIN_FILE=$PWD/cmake/zig.cmake" "-DKNURL_ZIG_TARGET=$3" -DCMAKE_SHARED_LINKER_FLAGS=-s)
+    rm -rf build/python-source/build # of another platform
+    KNURL_BUILD_FOLDER=$PWD/build/wheel-${3:-$2} _PYTHON_HOST_PLATFORM=$2 CMAKE_GENERATOR=Ninja CMAKE_ARGS="${options[*]}" \
+        with_progress "building the wheel for ${3:-$2}" "$log" /usr/bin/python3 -m pip wheel --no-build-isolation --no-deps \
+        --no-index --wheel-dir "$1" build/python-source || { tail -n 20 "$log" >&2; exit 1; }
 }
 
-# Both for this processor and for arm64, with compilers that old systems' C libraries are enough for, if they can be had.
-# usage: release_linux OUT VERSION
-release_linux() {
-    local arch zig="-DCMAKE_TOOLCHAIN_FILE=$PWD/cmake/zig.cmake" link=-DCMAKE_SHARED_LINKER_FLAGS=-Wl,--build-id
+# Archives and wheels for Linux on x86-64, with compilers that old systems' C libraries are enough for, if they can be had;
+# and those for Linux on arm64 and for macOS. usage: release_archives OUT VERSION
+release_archives() {
+    local arch name=knurl-$2 zig="-DCMAKE_TOOLCHAIN_FILE=$PWD/cmake/zig.cmake" link=-DCMAKE_SHARED_LINKER_FLAGS=-Wl,--build-id
+    local oldest=() host
+    host=$(uname -m)
     if prepare_debian11; then
-        release_archive "$1" "$2" x86_64 "-DCMAKE_TOOLCHAIN_FILE=$PWD/cmake/debian11.cmake" "$link" "${link/SHARED/EXE}"
+        oldest=("-DCMAKE_TOOLCHAIN_FILE=$PWD/cmake/debian11.cmake")
     else
         echo "run: SKIPPED: the archive for glibc 2.31 (see above): it is built for this machine's" >&2
-        release_archive "$1" "$2" "$(uname -m)" "$link" "${link/SHARED/EXE}"
     fi
-    if prepare_zig; then
-        release_archive "$1" "$2" aarch64 "$zig" -DKNURL_ZIG_TARGET=aarch64-linux-gnu.2.28
-        for arch in x86_64 aarch64; do
-            release_wheel "$1" $arch "$zig" "-DKNURL_ZIG_TARGET=$arch-linux-gnu.2.28" -DCMAKE_SHARED_LINKER_FLAGS=-s
-        done
-    else
-        echo "run: SKIPPED: archive and wheel for arm64, and for glibc 2.28 (see above): one wheel is built for this machine's" >&2
-        release_wheel "$1" "$(uname -m)"
+    build_shared "$host" "${oldest[@]}" "$link" "${link/SHARED/EXE}"
+    release_archive "$1" "$name-linux-$host" "build/archive-$host"
+    if ! prepare_zig; then
+        echo "run: SKIPPED: what is for macOS and arm64, and for glibc 2.28 (see above): one wheel is built for this machine's" >&2
+        release_wheel "$1" "linux-$host" ''
+        return 0
     fi
+    build_shared aarch64 "$zig" -DKNURL_ZIG_TARGET=aarch64-linux-gnu.2.28
+    release_archive "$1" "$name-linux-aarch64" build/archive-aarch64
+    for arch in aarch64 x86_64; do
+        build_shared macos-$arch "$zig" -DKNURL_ZIG_TARGET=$arch-macos.11.0
+        release_wheel "$1" linux-$arch $arch-linux-gnu.2.28
+    done
+    release_archive "$1" "$name-macos-universal" build/archive-macos-{aarch64,x86_64}
 }
 
 # usage: release [check]
@@ -234,7 +247,7 @@ release() {
     git archive --prefix="$name/" HEAD | gzip -9 -n >"$source"
     with_progress 'building Debian packages' "$log" packages/debian.sh "$out" "$source" "$version" build/debian || { tail -n 20 "$log" >&2; exit 1; }
     release_python_source "$out/$name.tar.gz" "build/debian/$name/bindings/python"
-    release_linux "$out" "$version"
+    release_archives "$out" "$version"
     package_godot
     package_unity
     package_windows
@@ -261,6 +274,10 @@ check_release() {
     need_packages debootstrap
     echo 'run: trying each archive in an empty Debian'
     tests/package/empty_debian.sh "$1" build/empty-debian
+    if compgen -G "$1/*-macos-*" >/dev/null; then
+        need_packages llvm
+        /usr/bin/python3 -B tests/package/macos.py "$1" build/zig
+    fi
     echo 'run: trying the two commands in the oldest and in the newest system'
     test_systems '' "$OLDEST_SYSTEM" "$NEWEST_SYSTEM"
     [ ! -d build/systems ] || tests/package/tinygltf.sh build/systems build/tinygltf

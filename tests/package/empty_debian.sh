@@ -67,7 +67,7 @@ cp -r /source/tests/package/consumer /tmp/consumer
         runs_plate knurl'
     try_archive wheel 'need python3-venv python3-cffi python3-numpy
         python3 -m venv --system-site-packages /tmp/venv
-        /tmp/venv/bin/pip install --no-index /release/knurl-*x86_64.whl
+        /tmp/venv/bin/pip install --no-index /release/knurl-*manylinux*x86_64.whl
         /tmp/venv/bin/python /source/bindings/python/examples/stroke.py'
     try_archive wheel-source 'need python3-venv python3-cffi python3-numpy python3-setuptools python3-wheel g++ cmake make \
             libtinygltf-dev nlohmann-json3-dev libglm-dev

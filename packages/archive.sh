@@ -2,17 +2,24 @@
 # Packs the files that a build with shared libraries installs, as an archive that runs from any folder: tool, libraries, headers,
 # man page and completions, demo scenes, samples, the site; and its debug information, by build ID, in a second archive if
 # there is any.
-# usage: linux.sh OUT NAME BUILD KNURL SITE     Writes OUT/NAME.tar.gz and OUT/NAME-debug.tar.gz. KNURL: a tool that runs here;
-# SITE: made by ./run docs. Environment: SOURCE_DATE_EPOCH
+# usage: archive.sh OUT NAME KNURL SITE BUILD [OTHER]     Writes OUT/NAME.tar.gz and OUT/NAME-debug.tar.gz. KNURL: a tool that runs
+# here; SITE: made by ./run docs; OTHER: a build for macOS's other processor: its programs and libraries are joined with BUILD's.
+# Environment: SOURCE_DATE_EPOCH
 set -euo pipefail
-[ $# -eq 5 ] || { echo "usage: linux.sh OUT NAME BUILD KNURL SITE" >&2; exit 2; }
+[ $# -eq 5 ] || [ $# -eq 6 ] || { echo "usage: archive.sh OUT NAME KNURL SITE BUILD [OTHER]" >&2; exit 2; }
 root=$(cd "$(dirname "$0")/.." && pwd)
-out=$1 name=$2 build=$3 knurl=$4 site=$5
+out=$1 name=$2 knurl=$3 site=$4 build=$5 other=${6:-}
 stage=$(mktemp -d)
 trap 'rm -rf "$stage"' EXIT
 home=$stage/$name
 
 cmake --install "$build" --prefix "$home" >/dev/null
+if [ -n "$other" ]; then
+    cmake --install "$other" --prefix "$stage/other" >/dev/null
+    while read -r file; do
+        [ -L "$home/$file" ] || "$root/cmake/universal.py" "$home/$file" "$home/$file" "$stage/other/$file"
+    done < <(cd "$home" && ls bin/* lib/*.dylib)
+fi
 share=$home/share
 mkdir -p "$share"/{man/man1,bash-completion/completions,fish/vendor_completions.d,zsh/site-functions} "$home"/{assets,samples}
 "$knurl" man >"$share/man/man1/knurl.1"
@@ -30,10 +37,9 @@ if [ -n "$fourier" ]; then
     cp /usr/share/doc/libkissfft-dev/copyright "$share/doc/knurl/kissfft.txt"
 fi
 for file in "$home"/bin/* "$home"/lib/*.so.*; do
-    [ ! -L "$file" ] || continue
-    id=$(readelf -n "$file" | sed -n 's/.*Build ID: //p')
-    sections=$(readelf -SW "$file")
-    if [ -n "$id" ] && [[ $sections == *.debug_info* ]]; then
+    if [ -L "$file" ] || [ ! -f "$file" ]; then continue; fi
+    id=$(readelf -n "$file" 2>/dev/null | sed -n 's/.*Build ID: //p') || continue # macOS's are stripped
+    if [ -n "$id" ] && [[ $(readelf -SW "$file") == *.debug_info* ]]; then
         debug=$stage/$name-debug/lib/debug/.build-id/${id:0:2}
         mkdir -p "$debug"
         objcopy --only-keep-debug "$file" "$debug/${id:2}.debug"
