@@ -55,7 +55,27 @@ func made_with_the_device() -> void:
 	clear()
 
 
+# A plate of 0.1 m with one u and v over it, on a node that is scaled by 2 and 3.
+func scale_of_uvs() -> void:
+	var node := MeshInstance3D.new()
+	var s := surface_below(node)
+	check("nothing, no uvs", s.get_uv_scale() == Vector2.ZERO)
+	node.mesh = plate(0.1)
+	node.scale = Vector3(2, 1, 3)
+	check("outside the tree, none", s.get_uv_scale() == Vector2.ZERO)
+	root.add_child(node)
+	check("on an axis, none", s.get_uv_scale() == Vector2.ZERO)
+	s.axis = Vector3.ZERO
+	var found: Vector2 = s.get_uv_scale()
+	check_near("m for each u", found.x, 0.2, 1e-6)
+	check_near("m for each v", found.y, 0.3, 1e-6)
+	s.grating = null
+	check("without a grating, none", s.get_uv_scale() == Vector2.ZERO)
+	clear()
+
+
 func tests() -> void:
+	scale_of_uvs()
 	await made_with_the_device()
 	var csg := CSGBox3D.new()
 	csg.size = Vector3(0.1, 0.02, 0.1)

@@ -104,10 +104,12 @@ static void get_uv_scale(void *self, const void *const *arguments, void *result)
     surface *s = self;
     float found[2] = {0.0F, 0.0F};
     char refusal[512];
+    uint8_t is_inside = 0;
     knurl_session_pose at;
     (void)arguments;
+    gd_call(gd_method.Node_is_inside_tree, s->base.object, NULL, &is_inside);
     geometry_refuse(surface_parent(s), refusal, sizeof refusal);
-    if (s->grating && !refusal[0] && node_pose(s->base.object, &at)) {
+    if (s->grating && is_inside && !refusal[0] && node_pose(s->base.object, &at)) {
         double scale[2];
         preview_uv_scale(s, &at, scale);
         found[0] = (float)scale[0];
