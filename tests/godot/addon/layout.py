@@ -27,6 +27,8 @@ class Layout(unittest.TestCase):
         for name in ("LICENSE", "README.md", "CHANGELOG.md", "THIRD_PARTY.md"):
             self.assertIn(HOME + name, NAMES)
         self.assertIn("MIT License", text_of("LICENSE"))
+        for licence in ("MIT", "The base64 decoder", "ZPL 2.1", "BSD, 3 clauses"): # a section for each
+            self.assertIn(f"\n## {licence}", text_of("THIRD_PARTY.md"))
 
     def test_each_script_has_an_id_of_its_own(self):
         files = [name for name in NAMES if re.search(r"\.(gd|gdshader|gdextension)$", name) and "/standins/" not in name]
