@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """The code shown in the documentation compiles.
-usage: snippets.py check CC CXX          compiles C (also as C++), checks shells' syntax, ./run's commands and knurl's options
+usage: snippets.py check CC CXX          compiles C (also as C++), checks the syntax of shells and JavaScript,
+                                         ./run's commands and knurl's options
        snippets.py write LANGUAGE DIR [BELOW]   writes each block of a language, for the tests that have its compiler, with
                                          the code around it; prints the files' names. BELOW: only pages of a folder
 
@@ -8,13 +9,15 @@ SPDX-License-Identifier: MIT
 """
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
 
 from check import ROOT, pages
 
-ENDINGS = {"c": ".c", "sh": ".sh", "cmake": ".txt", "python": ".py", "gdscript": ".gd", "csharp": ".cs"}
+ENDINGS = {"c": ".c", "sh": ".sh", "cmake": ".txt", "python": ".py", "gdscript": ".gd", "csharp": ".cs",
+           "js": ".mjs", "html": ".html"}
 
 # Code around a page's blocks: lines before and after. Without an entry a block compiles alone.
 AROUND = {
@@ -94,6 +97,14 @@ def shell_errors(folder):
                 yield f"{where}: knurl has no command '{words[0]}'"
 
 
+def script_errors(folder):
+    """JavaScript's syntax, if Node is there; HTML is shown only."""
+    for where, path in write("js", folder) if shutil.which("node") else []:
+        done = subprocess.run(["node", "--check", path], capture_output=True, text=True, check=False)
+        if done.returncode:
+            yield f"{where}: {done.stderr}"
+
+
 def main():
     if sys.argv[1:2] == ["write"] and len(sys.argv) in (4, 5):
         for _, path in write(*sys.argv[2:]):
@@ -110,6 +121,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         problems += compiler_errors(folder, [[sys.argv[2], "-std=c99", "-pedantic-errors"], [sys.argv[3], "-x", "c++", "-std=c++17"]])
         problems += shell_errors(folder)
+        problems += script_errors(folder)
     print("\n".join(problems) if problems else "snippets: " + ", ".join(f"{n} {l}" for l, n in sorted(counts.items())))
     return 1 if problems else 0
 
