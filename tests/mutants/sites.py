@@ -231,7 +231,7 @@ class Finder:
 
     def returned(self, value):
         kind = value.type.get_canonical().kind
-        if value.kind in LITERALS:
+        if value.kind in LITERALS or self.source(value) == "KNURL_OK":  # which is 0
             return
         if kind in FLOATS:
             self.replace(value, "return", f"-({self.source(value)})", "0.0")
