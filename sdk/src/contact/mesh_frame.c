@@ -94,10 +94,10 @@ void knurl_mesh_set_axis(knurl_mesh *mesh, const double axis[3]) {
     double area = 0.0;
     double sum = 0.0;
     double *along = mesh->facts.stretch[0];
+    double *across = mesh->facts.stretch[1];
     along[0] = 1.0;
     along[2] = 0.0;
-    mesh->facts.stretch[1][0] = mesh->facts.stretch[1][1] = mesh->facts.stretch[1][2] =
-        1.0; /* in metres, for faces in any direction */
+    across[0] = across[1] = across[2] = 1.0; /* in metres, for faces in any direction */
     for (uint32_t i = 0; i < mesh->triangle_count; i++) {
         knurl_triangle t;
         double tangent[3];
