@@ -222,6 +222,7 @@ release_archives() {
     for arch in aarch64 x86_64; do
         build_shared macos-$arch "$zig" -DKNURL_ZIG_TARGET=$arch-macos.11.0
         release_wheel "$1" linux-$arch $arch-linux-gnu.2.28
+        release_wheel "$1" macosx-11.0-${arch/aarch64/arm64} $arch-macos.11.0
     done
     release_archive "$1" "$name-macos-universal" build/archive-macos-{aarch64,x86_64}
 }

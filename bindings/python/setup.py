@@ -63,7 +63,7 @@ class Build(build_py):
                         os.path.join(folder, "installed")], check=True)
         libraries = os.path.join(folder, "installed", "lib")
         for name in os.listdir(libraries):
-            if re.search(r"record\.so$|\.so\.\d+\.\d+$", name): # the file name that is loaded
+            if re.search(r"record\.(so|dylib)$|\.so\.\d+\.\d+$|[a-z]\.\d+\.\d+\.dylib$", name): # the file name that is loaded
                 shutil.copy(os.path.join(libraries, name), package)
         os.makedirs(os.path.join(package, "licences"), exist_ok=True)
         for name in ("LICENSE", "bindings/godot/addons/knurl/THIRD_PARTY.md"):

@@ -10,6 +10,7 @@ import sys
 import tarfile
 import tempfile
 import unittest
+import zipfile
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import macho
@@ -43,9 +44,11 @@ class Files(unittest.TestCase):
         cls.addClassCleanup(folder.cleanup)
         cls.files, cls.trees = [], {}
         for name, pattern, expected in (("archive", "*-macos-universal.tar.gz", {"arm64", "x86_64"}),
-                                        ("linux", "*-linux-aarch64.tar.gz", None)):
+                                        ("linux", "*-linux-aarch64.tar.gz", None),
+                                        ("wheel-arm64", "*-macosx_11_0_arm64.whl", {"arm64"}),
+                                        ("wheel-x86_64", "*-macosx_11_0_x86_64.whl", {"x86_64"})):
             to = os.path.join(folder.name, name)
-            with tarfile.open(the(pattern)) as archive:
+            with (zipfile.ZipFile if pattern.endswith("whl") else tarfile.open)(the(pattern)) as archive:
                 archive.extractall(to)
             cls.trees[name] = os.path.join(to, os.listdir(to)[0])
             for path in glob.glob(f"{to}/**", recursive=True):
@@ -58,7 +61,8 @@ class Files(unittest.TestCase):
 
     def test_tool_and_libraries_are_there(self):
         names = sorted(os.path.basename(path) for path, _, _ in self.files)
-        self.assertEqual(names, ["knurl", "libknurl.0.3.0.dylib", "libknurl_gltf.0.3.0.dylib"])
+        wheel = ["libknurl.0.3.dylib", "libknurl_gltf.0.3.dylib", "libknurl_record.dylib"]
+        self.assertEqual(names, sorted(["knurl", "libknurl.0.3.0.dylib", "libknurl_gltf.0.3.0.dylib", *wheel, *wheel]))
 
     def test_each_is_for_its_processors(self):
         for path, expected, parts in self.files:

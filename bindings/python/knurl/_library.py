@@ -20,7 +20,7 @@ class _Library:
     """All libraries' functions and constants under one name."""
 
     def __init__(self) -> None:
-        core, gltf, record = (ffi.dlopen(glob.glob(os.path.join(_FOLDER, f"lib{name}.so*"))[0])
+        core, gltf, record = (ffi.dlopen(glob.glob(os.path.join(_FOLDER, f"lib{name}.*"))[0])
                               for name in ("knurl", "knurl_gltf", "knurl_record"))
         self._parts = {"knurl_gltf_": gltf, "knurl_record_": record, "": core}
 
