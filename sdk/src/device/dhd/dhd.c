@@ -19,23 +19,23 @@
 #define NATIVE_RATE   1000.0 /* Hz; the library allows more, up to 4000 */
 #define STATUS_CYCLES 10u    /* exchanges per status query: too few for a hand to press a button twice */
 
-/* Properties by model: N, N/m, m, the peaks of torque (N m) and gripper (N), joints with an encoder. CHAI3D's
+/* Properties by model: joints with an encoder, N, N/m, m, the peaks of torque (N m) and gripper (N). CHAI3D's
  * cDeltaDevices; lambdas and the other sigmas: as a sigma.7. Continuous ones are not published: a third of the peak. */
 static const struct {
     int type;
-    double max_force, max_stiffness, radius, max_torque, max_grip;
     uint32_t joints;
+    double max_force, max_stiffness, radius, max_torque, max_grip;
 } models[] = {
-    {DHD_OMEGA, 12.0, 5000.0, 0.075, 0.0, 0.0, 3},      {DHD_OMEGA3, 12.0, 5000.0, 0.075, 0.0, 0.0, 3},
-    {DHD_OMEGA6, 12.0, 5000.0, 0.075, 0.0, 0.0, 6},     {DHD_OMEGA6_LEFT, 12.0, 5000.0, 0.075, 0.0, 0.0, 6},
-    {DHD_OMEGA7, 12.0, 5000.0, 0.075, 0.0, 8.0, 7},     {DHD_OMEGA7_LEFT, 12.0, 5000.0, 0.075, 0.0, 8.0, 7},
-    {DHD_DELTA3, 20.0, 5000.0, 0.15, 0.0, 0.0, 3},      {DHD_DELTA6, 20.0, 5000.0, 0.15, 0.0, 0.0, 6},
-    {DHD_SIGMA3, 12.0, 4000.0, 0.09, 0.0, 0.0, 3},      {DHD_SIGMA6, 12.0, 4000.0, 0.09, 0.2, 0.0, 6},
-    {DHD_SIGMA6_LEFT, 12.0, 4000.0, 0.09, 0.2, 0.0, 6}, {DHD_SIGMA7, 12.0, 4000.0, 0.09, 0.2, 8.0, 7},
-    {DHD_SIGMA7_LEFT, 12.0, 4000.0, 0.09, 0.2, 8.0, 7}, {DHD_LAMBDA3, 12.0, 4000.0, 0.09, 0.0, 0.0, 3},
-    {DHD_LAMBDA6, 12.0, 4000.0, 0.09, 0.2, 0.0, 6},     {DHD_LAMBDA6_LEFT, 12.0, 4000.0, 0.09, 0.2, 0.0, 6},
-    {DHD_LAMBDA7, 12.0, 4000.0, 0.09, 0.2, 8.0, 7},     {DHD_LAMBDA7_LEFT, 12.0, 4000.0, 0.09, 0.2, 8.0, 7},
-    {DHD_FALCON, 8.0, 3000.0, 0.04, 0.0, 0.0, 3}, /* also the weakest: used if the type is unknown */
+    {DHD_OMEGA, 3, 12.0, 5000.0, 0.075, 0.0, 0.0},      {DHD_OMEGA3, 3, 12.0, 5000.0, 0.075, 0.0, 0.0},
+    {DHD_OMEGA6, 6, 12.0, 5000.0, 0.075, 0.0, 0.0},     {DHD_OMEGA6_LEFT, 6, 12.0, 5000.0, 0.075, 0.0, 0.0},
+    {DHD_OMEGA7, 7, 12.0, 5000.0, 0.075, 0.0, 8.0},     {DHD_OMEGA7_LEFT, 7, 12.0, 5000.0, 0.075, 0.0, 8.0},
+    {DHD_DELTA3, 3, 20.0, 5000.0, 0.15, 0.0, 0.0},      {DHD_DELTA6, 6, 20.0, 5000.0, 0.15, 0.0, 0.0},
+    {DHD_SIGMA3, 3, 12.0, 4000.0, 0.09, 0.0, 0.0},      {DHD_SIGMA6, 6, 12.0, 4000.0, 0.09, 0.2, 0.0},
+    {DHD_SIGMA6_LEFT, 6, 12.0, 4000.0, 0.09, 0.2, 0.0}, {DHD_SIGMA7, 7, 12.0, 4000.0, 0.09, 0.2, 8.0},
+    {DHD_SIGMA7_LEFT, 7, 12.0, 4000.0, 0.09, 0.2, 8.0}, {DHD_LAMBDA3, 3, 12.0, 4000.0, 0.09, 0.0, 0.0},
+    {DHD_LAMBDA6, 6, 12.0, 4000.0, 0.09, 0.2, 0.0},     {DHD_LAMBDA6_LEFT, 6, 12.0, 4000.0, 0.09, 0.2, 0.0},
+    {DHD_LAMBDA7, 7, 12.0, 4000.0, 0.09, 0.2, 8.0},     {DHD_LAMBDA7_LEFT, 7, 12.0, 4000.0, 0.09, 0.2, 8.0},
+    {DHD_FALCON, 3, 8.0, 3000.0, 0.04, 0.0, 0.0}, /* also the weakest: used if the type is unknown */
 };
 
 #define MODEL_COUNT (sizeof models / sizeof *models)
