@@ -68,7 +68,8 @@ figures() {
         echo 'run: the pictures show what the code does'
         return 0
     fi
-    /usr/bin/python3 samples/study/dark.py "$out"/{sweep,stability,stability_effects,speed_accuracy,smooth,even}.png # for README.md, docs/
+    /usr/bin/python3 samples/study/dark.py "$out"/{sweep,stability{,_methods,_amplitudes,_effects},speed_accuracy,smooth,even,signals,coverage,temporal,device}.png \
+        "$out"/{gratings,preferences,tradeoff,transitions,velocity}.png # of what pages show
     [ "$how" != --update ] || cp build/study/failures.md samples/study/failures.md
     echo "run: the numbers are in build/study, the pictures and what they were drawn from in $out"
 }
@@ -83,6 +84,7 @@ bench() {
     /usr/bin/python3 samples/study/figures.py build/study/bench.json --out assets/pictures/bench.png
     /usr/bin/python3 samples/study/dark.py assets/pictures/bench.png
     /usr/bin/python3 samples/study/figures.py samples/bench/results/bench_history.json --out assets/pictures/bench_history.png
+    /usr/bin/python3 samples/study/dark.py assets/pictures/bench_history.png
     echo "run: study half_cycles"
     build/release/knurl study half_cycles --out build/study
     echo "run: the numbers are in build/study, the picture is assets/pictures/bench.png"

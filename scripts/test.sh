@@ -204,6 +204,12 @@ test_recipes() {
     /usr/bin/python3 -B tests/package/recipes.py "$PWD" build/recipes build/recipes-venv/bin/conan
 }
 
+# The Python module's tests, with 100 runs of each that could hang; prints a note and continues if it cannot be built.
+soak_python() {
+    (need_packages "${PYTHON_PACKAGES[@]}") || { echo 'run: SKIPPED: the Python module: see above' >&2; return 0; }
+    KNURL_TEST_RUNS=100 test_preset release -R '^python$'
+}
+
 # The long forms of tests: each for a minute, or some ten times as long. Without ctest, which would stop them after two
 # minutes.
 soak() {
@@ -220,6 +226,7 @@ soak() {
             failed+=("$name")
         fi
     done
+    soak_python || failed+=(python)
     tests/tool/ridges_corpus.py build/release/knurl build/ridges || failed+=(ridges_corpus)
     same_numbers || failed+=(same_numbers)
     test_elsewhere || failed+=('macOS and arm64')

@@ -50,11 +50,11 @@ def warm(ax, cases, key):
     for name, x in PLACES.items():
         if name in cases:
             lowest = min(cases[name + suffix][key] for suffix, *_ in FEELS if name + suffix in cases)
-            say(ax, number(cases[name][key]), x, lowest, "center", "top", 8.5, INK, 0, -6, "data")
+            say(ax, number(cases[name][key]), x, lowest, "center", "top", 8.5, ACCENT, 0, -6, "data")
     for name in MESHES:
         if name in cases:
             lowest = min(cases[name + suffix][key] for suffix, *_ in FEELS if name + suffix in cases)
-            say(ax, number(cases[name][key]), cases[name]["triangles"], lowest, "center", "top", 8.5, INK, 0, -6, "data")
+            say(ax, number(cases[name][key]), cases[name]["triangles"], lowest, "center", "top", 8.5, ACCENT, 0, -6, "data")
 
 
 def paced(ax, cases, key):
@@ -63,7 +63,7 @@ def paced(ax, cases, key):
         points.append((cases["paced_mesh_100k"]["triangles"], cases["paced_mesh_100k"][key]))
     for x, y in points:
         ax.plot(x, y, "o", mfc="white", mec=ACCENT, mew=1.4, ms=6.5, zorder=5)
-        say(ax, number(y), x, y, "left", "center", 8.5, INK, 8, 0, "data")
+        say(ax, number(y), x, y, "left", "center", 8.5, ACCENT, 8, 0, "data")
 
 
 def frame(ax, title, about):
@@ -109,7 +109,7 @@ def draw_bench(data, folder):
     figure.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.06, 0.055), ncol=len(handles), frameon=False,
                   fontsize=8.5, labelcolor=INK, handlelength=1.6, columnspacing=1.3, handletextpad=0.5)
     figure.text(0.07, 0.028, "Grey lines: CHAI3D 3.3 with texture, and HAPI without, on 2 vCPUs AMD EPYC (Zen 5), 24 November "
-                "2026: of that machine and day.\nIn a loop: from the position read to the force written.", color=GREY,
+                "2026: of that machine and day.\nNumbers: with grating. In a loop: from the position read to the force written.", color=GREY,
                 fontsize=8.5, va="center")
     figure.subplots_adjust(left=0.07, right=0.985, top=0.82, bottom=0.225, wspace=0.05)
     return figure

@@ -115,28 +115,31 @@ def cells(table, label, grip, method, protections):
 
 
 def draw_stopped(ax, table, raw, protected, scale):
-    """Marks the runaways of a raw map that the protections stop."""
+    """Marks the runaways of a raw map that the protections stop; returns how many these are, and how many there are."""
     before, after = table["outcome"][raw], table["outcome"][protected]
     x, y = table["x"][raw], scale * table["y"][raw]
     stopped = (before == "unstable") & (after != "unstable")
     ax.plot(x[stopped], y[stopped], "o", color="white", ms=4.5, mew=0, clip_on=False)
+    return np.array([np.count_nonzero(stopped), np.count_nonzero(before == "unstable")])
 
 
 def draw_methods(data, folder, amplitudes):
-    """Only devices and grips with a runaway; the others are calm."""
+    """Only devices and grips with a runaway; the others are calm. Returns the figure, its left margin, and a sentence
+    about the protections."""
     table = read_table(folder, data["table"])
     methods = list(dict.fromkeys(table["method"]))
     every = list(dict.fromkeys(zip(table["label"], table["grip"])))
     rows = [(label, grip) for label, grip in every
             if np.any(table["outcome"][(table["label"] == label) & (table["grip"] == grip)] == "unstable")]
     scale = 1e3 if amplitudes else 1.0
+    stopped = np.zeros(2, int)
     figure, grid = plt.subplots(len(rows), len(methods), figsize=(10.5, 2.0 * len(rows) + 2.6), sharex=True, squeeze=False)
     for i, (row, (label, grip)) in enumerate(zip(grid, rows)):
         b, fc, _, delay, promised = DEVICES[label]
         for j, (ax, method) in enumerate(zip(row, methods)):
             raw = cells(table, label, grip, method, "raw")
             x, _ = draw_map(ax, table, raw, scale)
-            draw_stopped(ax, table, raw, cells(table, label, grip, method, "protected"), scale)
+            stopped += draw_stopped(ax, table, raw, cells(table, label, grip, method, "protected"), scale)
             if not amplitudes:
                 ax.axhline(promised, color=INK, lw=1, ls=QUANTUM)
                 fine = np.geomspace(x[0], x[-1], 200)
@@ -158,25 +161,26 @@ def draw_methods(data, folder, amplitudes):
     calm = [f"{label} {grip}" for label, grip in every if (label, grip) not in rows]
     figure.text(left, 0.72 / height, f"no runaway at all: {', '.join(calm)}", color=GREY, fontsize=9)
     lines = [Line2D([], [], marker="o", ls="", color="white", mec=OUTCOMES["unstable"], mew=2.5, ms=7,
-                    label="a runaway that the protections stop")]
+                    label="a runaway that the protections stop")] if stopped[0] else []
     lines += [] if amplitudes else [
         Line2D([], [], color=INK, lw=1.1, label="(b + fc/v + hand's)/(T/2 + td)"),
         Line2D([], [], color=INK, lw=1, ls=QUANTUM, label="what its maker promises")]
     legend(figure, table, lines, 0.04)
-    return figure, left
+    return figure, left, (f"without protections, which stop {stopped[0] or 'none'} of the {stopped[1]} runaways" +
+                          (" (dots)" if stopped[0] else ""))
 
 
 def draw_stiffnesses(data, folder):
-    figure, left = draw_methods(data, folder, False)
-    heading(figure, "Stiffness against speed, by method", "Gratings of 2 mm and A = 0.2 mm, 1 N at 1 kHz, after 2.25 s; "
-            "without protections; dots: what they stop", left)
+    figure, left, told = draw_methods(data, folder, False)
+    heading(figure, "Stiffness against speed, by method",
+            f"Gratings of 2 mm and A = 0.2 mm, 1 N at 1 kHz, after 2.25 s; {told}", left)
     return figure
 
 
 def draw_amplitudes(data, folder):
-    figure, left = draw_methods(data, folder, True)
-    heading(figure, "Amplitude against speed, by method", "Gratings of 2 mm at half the maker's stiffness, up to all of the "
-            "motors' force; without protections; dots: what they stop", left)
+    figure, left, told = draw_methods(data, folder, True)
+    heading(figure, "Amplitude against speed, by method",
+            f"Gratings of 2 mm at half the maker's stiffness, up to all of the motors' force; {told}", left)
     return figure
 
 

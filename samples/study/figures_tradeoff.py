@@ -19,7 +19,7 @@ PANELS = [("mean_worst", "net force, worst (A)", "what stays over whole cycles")
           ("frequency", "frequency error, mean", "strongest line against what the motion asks for"),
           ("false_worst", "false tones, worst", "of the power, farther than {near} from what is the ridges'"),
           ("felt_worst", "felt false tones, worst", "the same, through a device in a hand and over the threshold"),
-          ("strokes", "drift in strokes", "cycles played against crossed, rest to 250 Hz and back")]
+          ("strokes", "drift in strokes", "cycles played against crossed, 0 to 250 Hz and back; half a cycle: 0.0008")]
 
 
 def read(folder, table):

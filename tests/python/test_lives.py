@@ -1,6 +1,8 @@
-"""Lives of objects and threads: closing, guards, references and ends. Each probe that could hang is a separate process
-under a watchdog. KNURL_TEST_RUNS: of each (1). SPDX-License-Identifier: MIT"""
+"""Lives of objects and threads: closing, guards, references and ends, each under a watchdog; probes that could end the
+process are processes of their own. KNURL_TEST_RUNS: of each (1; 100 in ./run soak). SPDX-License-Identifier: MIT"""
 import copy
+import faulthandler
+import functools
 import gc
 import os
 import pickle
@@ -15,7 +17,7 @@ import numpy as np
 
 import knurl
 
-WATCHDOG_S = 20.0
+WATCHDOG_S = 120.0 # some programs take most of it on a machine that is busy with 30 others
 RUNS = int(os.environ.get("KNURL_TEST_RUNS", "1"))
 SCENE = """
 import multiprocessing, sys, threading, time
@@ -33,6 +35,17 @@ def ready():
     scene.add_plane()
     scene.commit()
     return scene
+
+
+def repeated(test):
+    """Runs a test RUNS times; if it hangs, the watchdog prints where each thread is, and ends the process."""
+    @functools.wraps(test)
+    def run(self):
+        for _ in range(RUNS):
+            faulthandler.dump_traceback_later(WATCHDOG_S, exit=True)
+            test(self)
+            faulthandler.cancel_dump_traceback_later()
+    return run
 
 
 class Lives(unittest.TestCase):
@@ -64,6 +77,7 @@ print(len(scene.tick(positions[:5])), set(said) <= {"hip 0: expected one thread 
                                                     "thread ticks it"})
 """), "5 True\n")
 
+    @repeated
     def test_hips_of_a_scene_are_ticked_by_a_thread_each(self):
         scene = knurl.Scene(hips=2)
         scene.add_plane()
@@ -93,6 +107,7 @@ with multiprocessing.get_context("fork").Pool(2) as pool:
         print("raised", error)
 """))
 
+    @repeated
     def test_a_loop_keeps_its_callback(self):
         ticks = []
         loop = knurl.Loop(ready(), knurl.Device("fake"), tick_callback=lambda row: ticks.append(int(row["tick"])))
@@ -115,6 +130,7 @@ with multiprocessing.get_context("fork").Pool(2) as pool:
                               timeout=WATCHDOG_S)
         self.assertEqual(done.returncode, 3)
 
+    @repeated
     def test_a_notebooks_cell_can_be_run_twice(self):
         scene, device, loops = ready(), knurl.Device("fake"), []
         for _ in range(3):
@@ -125,6 +141,7 @@ with multiprocessing.get_context("fork").Pool(2) as pool:
             loops[0].pause()
         loops[-1].close()
 
+    @repeated
     def test_a_device_that_is_opened_again_is_closed_first(self):
         class Exclusive:
             """The library, whose fake device can be opened once at a time, as a device on a wire can."""
@@ -148,6 +165,7 @@ with multiprocessing.get_context("fork").Pool(2) as pool:
         self.assertEqual([device.closed for device in devices], [True, True, False])
         loops[-1].close()
 
+    @repeated
     def test_what_is_closed_says_so(self):
         scene, device = ready(), knurl.Device("fake")
         loop = knurl.Loop(scene, device)
@@ -162,12 +180,14 @@ with multiprocessing.get_context("fork").Pool(2) as pool:
             with self.assertRaisesRegex(knurl.KnurlError, "closed"):
                 call()
 
+    @repeated
     def test_each_is_a_context(self):
         with knurl.Scene() as scene, knurl.Device("fake") as device:
             scene.add_plane()
             scene.commit()
             with knurl.Loop(scene, device) as loop:
-                time.sleep(0.02)
+                while loop.stats["ticks"] == 0:
+                    time.sleep(0.001)
             with knurl.Loop(scene, device) as again:
                 pass
         self.assertGreater(loop.stats["ticks"], 0)
@@ -184,6 +204,7 @@ thread.join()
 print(done)
 """), "[2000000]\n")
 
+    @repeated
     def test_an_exception_in_a_callback_ends_the_loop_and_is_raised(self):
         def tick(row):
             if row["tick"] == 5:

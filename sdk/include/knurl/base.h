@@ -6,6 +6,7 @@
  * - [game thread]: any thread but the haptic, one at a time: no other call marked so, with the same scene, device or
  *   loop, runs meanwhile. It need not be the same thread each time.
  * - [haptic thread]: the one that ticks: one thread at a time for each HIP, and for each device without a loop.
+ * A debug build (KNURL_CHECK_THREADS) ends the program, with a sentence, at a call that breaks its mark.
  *
  * Constants are ints. Fields that hold one of them are int32_t, those that hold bits uint32_t.
  * SPDX-License-Identifier: MIT */

@@ -7,6 +7,7 @@
 #include "audio/wave.h"
 #include "base/atomic.h"
 #include "base/base.h"
+#include "base/rule.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -82,6 +83,7 @@ static knurl_result check_desc(const knurl_audio_desc *d) {
 }
 
 knurl_result knurl_audio_create(const knurl_audio_desc *desc, knurl_audio **audio) {
+    KNURL_RULE(GAME, NULL);
     knurl_audio_desc d;
     if (KNURL_IS_NULL(audio)) {
         return KNURL_ERROR_ARGUMENT;
@@ -115,6 +117,7 @@ knurl_result knurl_audio_create(const knurl_audio_desc *desc, knurl_audio **audi
 }
 
 void knurl_audio_destroy(knurl_audio *audio) {
+    KNURL_RULE(GAME, audio);
     if (!audio || KNURL_BAD_HANDLE(audio, AUDIO)) {
         return;
     }
@@ -144,6 +147,7 @@ static double smooth(knurl_audio *a, int axis, double step) {
 }
 
 void knurl_audio_take(const knurl_tick_output *output, void *audio) {
+    KNURL_RULE(HAPTIC, audio);
     knurl_audio *a = audio;
     if (!output || !KNURL_IS_HANDLE(a, AUDIO)) {
         return;
@@ -250,6 +254,7 @@ static double next_for_coil(knurl_audio *a, uint64_t written, double ticks) {
 }
 
 void knurl_audio_fill(knurl_audio *a, float *samples, uint32_t count) {
+    KNURL_RULE(ONE, a);
     if (!KNURL_IS_HANDLE(a, AUDIO) || !samples || count == 0) {
         return;
     }

@@ -3,6 +3,7 @@
 
 #include "base/finite.h"
 #include "base/format.h"
+#include "base/rule.h"
 
 #include <stdarg.h>
 #include <string.h>
@@ -94,6 +95,7 @@ static int is_harmful(uint32_t code) {
 }
 
 size_t knurl_text_line(char *to, size_t size, const char *from) {
+    KNURL_RULE(NOT_HAPTIC, NULL);
     size_t length = 0;
     if (!to || !from) { /* not by handle.h, whose checks call knurl_fail() */
         (void)knurl_fail(KNURL_ERROR_ARGUMENT, "%s: expected a pointer, found null", to ? "from" : "to");
@@ -122,6 +124,7 @@ size_t knurl_text_line(char *to, size_t size, const char *from) {
 }
 
 knurl_result knurl_fail(knurl_result code, const char *format, ...) {
+    KNURL_RULE(NOT_HAPTIC, NULL);
     char text[sizeof formatted]; /* a local buffer, so that the old message may be an argument */
     va_list arguments;
     va_start(arguments, format);

@@ -1,5 +1,6 @@
 /* A device made of a caller's functions. SPDX-License-Identifier: MIT */
 #include "base/base.h"
+#include "base/rule.h"
 #include "device/link.h"
 
 #include <knurl/device_functions.h>
@@ -141,6 +142,7 @@ static knurl_result check(const knurl_device_functions *f) {
 }
 
 knurl_result knurl_device_open_functions(const knurl_device_functions *functions, knurl_device **device) {
+    KNURL_RULE(GAME, NULL);
     if (KNURL_IS_NULL(functions) || KNURL_IS_NULL(device)) {
         return KNURL_ERROR_ARGUMENT;
     }

@@ -4,6 +4,7 @@
 
 #include "base/atomic.h"
 #include "base/base.h"
+#include "base/rule.h"
 #include "base/system.h"
 #include "base/vec3.h"
 
@@ -59,6 +60,7 @@ static void await_zero(knurl_device *device, uint32_t use) {
 
 /* The last of the owner and the loop that uses the device frees it. */
 void knurl_device_close(knurl_device *device) {
+    KNURL_RULE(END, device);
     if (!device || KNURL_BAD_HANDLE(device, DEVICE)) {
         return;
     }
@@ -157,6 +159,7 @@ knurl_result knurl_device_get_status(const knurl_device *device, knurl_device_st
 }
 
 uint32_t knurl_device_next_event(knurl_device *device, knurl_device_event *event) {
+    KNURL_RULE(ONE, device);
     if (KNURL_BAD_HANDLE(device, DEVICE) || KNURL_IS_NULL(event)) {
         return 0;
     }
@@ -180,6 +183,7 @@ static knurl_result begin_check(knurl_device *device) {
 }
 
 knurl_result knurl_device_start(knurl_device *device, double update_rate_hz) {
+    KNURL_RULE(GAME, device);
     if (KNURL_BAD_HANDLE(device, DEVICE)) {
         return KNURL_ERROR_ARGUMENT;
     }
@@ -329,6 +333,7 @@ static knurl_result read_device(knurl_device *device, knurl_device_sample *sampl
 }
 
 knurl_result knurl_device_read(knurl_device *device, knurl_device_sample *sample) {
+    KNURL_RULE(HAPTIC, device);
     if (!KNURL_IS_HANDLE(device, DEVICE) || !sample) {
         return knurl_fail_static(KNURL_ERROR_ARGUMENT,
                                  "knurl_device_read: expected a device that is open and a sample, "
@@ -381,6 +386,7 @@ static knurl_result write_device(knurl_device *device, const double force[3]) {
 }
 
 knurl_result knurl_device_write(knurl_device *device, const double force[3]) {
+    KNURL_RULE(HAPTIC, device);
     if (!KNURL_IS_HANDLE(device, DEVICE) || !force) {
         return knurl_fail_static(KNURL_ERROR_ARGUMENT,
                                  "knurl_device_write: expected a device that is open and a force, "

@@ -1,5 +1,6 @@
 /* Zeroes all forces when the process ends or stops. SPDX-License-Identifier: MIT */
 #include "base/atomic.h"
+#include "base/rule.h"
 #include "base/system.h"
 #include "device/driver.h"
 
@@ -112,6 +113,7 @@ static void resume(void) {
 }
 
 knurl_result knurl_device_zero_on_exit(uint32_t faults_recover) {
+    KNURL_RULE(GAME, NULL);
     static const knurl_exit_actions actions = {end, stop, resume};
     if (faults_recover > 1) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "knurl_device_zero_on_exit: expected 0 or 1, found %u",

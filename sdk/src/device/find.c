@@ -2,6 +2,7 @@
 #include "device/drivers.h"
 
 #include "base/atomic.h"
+#include "base/rule.h"
 #include "base/system.h"
 #include "device/listings.h"
 
@@ -20,6 +21,7 @@ static const knurl_driver *const drivers[] = {&knurl_fake_driver,    &knurl_touc
 #define DRIVER_COUNT (sizeof drivers / sizeof *drivers)
 
 knurl_result knurl_device_open(const char *uri, knurl_device **device) {
+    KNURL_RULE(GAME, NULL);
     if (KNURL_IS_NULL(uri) || KNURL_IS_NULL(device)) {
         return KNURL_ERROR_ARGUMENT;
     }
@@ -91,6 +93,7 @@ static void finish_look(look *l, int64_t deadline, knurl_listings *listings) {
 }
 
 uint32_t knurl_device_list(knurl_device_listing *listings, uint32_t capacity) {
+    KNURL_RULE(GAME, NULL);
     knurl_listings found = {listings, listings ? capacity : 0, 0};
     look *looks[DRIVER_COUNT];
     const int64_t deadline = knurl_system_now_ns() + LOOK_NS;

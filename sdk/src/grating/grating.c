@@ -3,6 +3,7 @@
 
 #include "base/base.h"
 #include "base/handle.h"
+#include "base/rule.h"
 #include "grating/step.h"
 
 #include <math.h>
@@ -53,6 +54,7 @@ double knurl_grating_frequency(const double spatial_frequency[2], const double v
 
 void knurl_grating_step(const knurl_grating *grating, knurl_grating_state *state, const double position[2],
                         const double velocity[2], knurl_grating_output *output) {
+    KNURL_RULE(HAPTIC, state);
     if (KNURL_UNLIKELY(!grating || !state || !velocity || !output ||
                        (!position && knurl_methods[grating->method].needs_position))) {
         return;

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT */
 #include "base/atomic.h"
 #include "base/base.h"
+#include "base/rule.h"
 #include "grating/follow.h"
 #include "grating/methods.h"
 
@@ -64,6 +65,7 @@ static knurl_result check_name(const char *name) {
 
 knurl_result knurl_method_add(const char *name, double crest, knurl_method_function height, void *user,
                               int32_t *method) {
+    KNURL_RULE(GAME, NULL);
     if (KNURL_IS_NULL(name) || KNURL_IS_NULL(method)) {
         return KNURL_ERROR_ARGUMENT;
     }

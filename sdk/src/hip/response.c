@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT */
 #include "base/base.h"
 #include "base/number.h"
+#include "base/rule.h"
 
 #include <knurl/hip.h>
 
@@ -72,6 +73,7 @@ static void find_gains(const response *r, knurl_gain *gains) {
 }
 
 knurl_result knurl_gains_from_plant(double mass, double viscous, double update_rate_hz, knurl_gain *gains) {
+    KNURL_RULE(NOT_HAPTIC, NULL);
     response r = {.count = KNURL_GAINS};
     if (KNURL_IS_NULL(gains)) {
         return KNURL_ERROR_ARGUMENT;
@@ -205,6 +207,7 @@ static knurl_result parse(const char *file, uint64_t size, response *r) {
 }
 
 knurl_result knurl_gains_from_response(const char *file, uint64_t size, knurl_gain *gains) {
+    KNURL_RULE(NOT_HAPTIC, NULL);
     response r = {.count = 0};
     if (KNURL_IS_NULL(file) || KNURL_IS_NULL(gains)) {
         return KNURL_ERROR_ARGUMENT;

@@ -2,6 +2,7 @@
 #include "loop/loop_internal.h"
 
 #include "base/base.h"
+#include "base/rule.h"
 #include "base/vec3.h"
 
 #include <math.h>
@@ -33,6 +34,7 @@ knurl_result knurl_loop_set_gain(knurl_loop *loop, double gain) {
 }
 
 knurl_result knurl_loop_set_force(knurl_loop *loop, const double force[3]) {
+    KNURL_RULE(GAME, loop);
     if (KNURL_BAD_HANDLE(loop, LOOP) || KNURL_IS_NULL(force)) {
         return KNURL_ERROR_ARGUMENT;
     }
@@ -57,6 +59,7 @@ static uint64_t ticks_of(const knurl_wave *wave, double seconds, double rate) {
 
 knurl_result knurl_loop_vibrate(knurl_loop *loop, int32_t method, double frequency_hz, double amplitude,
                                 const double direction[3], double seconds) {
+    KNURL_RULE(GAME, loop);
     if (KNURL_BAD_HANDLE(loop, LOOP) || KNURL_IS_NULL(direction)) {
         return KNURL_ERROR_ARGUMENT;
     }

@@ -3,6 +3,7 @@
 #include "loop/loop_internal.h"
 
 #include "base/atomic.h"
+#include "base/rule.h"
 #include "base/vec3.h"
 #include "scene/scene.h"
 
@@ -48,6 +49,7 @@ void knurl_loop_publish_zero_force(knurl_loop *loop) {
 /* One step of the ramp from the last force to zero. Reads the device too, because some drivers need that before a
  * write. Returns 0 after the last step. */
 static int ramp_down(knurl_loop *loop) {
+    KNURL_RULE(HAPTIC, NULL); /* as in knurl_loop_tick() */
     const uint64_t steps = ramp_steps(loop);
     if (loop->haptic.ramp_step >= steps) {
         return 0;
@@ -74,6 +76,7 @@ int knurl_loop_cycle(knurl_loop *loop) {
 }
 
 void knurl_loop_end(knurl_loop *loop, int32_t state) {
+    KNURL_RULE(HAPTIC, NULL);
     static const double none[3] = {0.0, 0.0, 0.0};
     knurl_device *device = loop->shared.desc.device;
     knurl_device_halt(device);

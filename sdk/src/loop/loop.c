@@ -5,6 +5,7 @@
 #include "base/atomic.h"
 #include "base/base.h"
 #include "base/range.h"
+#include "base/rule.h"
 #include "scene/scene.h"
 
 #include <math.h>
@@ -128,6 +129,7 @@ static knurl_result make(const knurl_loop_desc *d, const knurl_hip_facts *facts,
 }
 
 knurl_result knurl_loop_create(const knurl_loop_desc *desc, knurl_loop **loop) {
+    KNURL_RULE(GAME, NULL);
     if (KNURL_IS_NULL(desc) || KNURL_IS_NULL(loop)) {
         return KNURL_ERROR_ARGUMENT;
     }
@@ -170,6 +172,7 @@ static int lock_memory(knurl_loop *loop) {
 }
 
 knurl_result knurl_loop_start(knurl_loop *loop) {
+    KNURL_RULE(GAME, loop);
     if (KNURL_BAD_HANDLE(loop, LOOP)) {
         return KNURL_ERROR_ARGUMENT;
     }
@@ -215,6 +218,7 @@ static int is_inside(const knurl_loop *loop) {
 }
 
 knurl_result knurl_loop_step(knurl_loop *loop, uint64_t ticks) {
+    KNURL_RULE(GAME, loop);
     if (KNURL_BAD_HANDLE(loop, LOOP)) {
         return KNURL_ERROR_ARGUMENT;
     }
@@ -290,6 +294,7 @@ void knurl_loop_stop(knurl_loop *loop) {
 }
 
 uint32_t knurl_loop_wait(knurl_loop *loop, double seconds) {
+    KNURL_RULE(NOT_HAPTIC, loop);
     if (KNURL_BAD_HANDLE(loop, LOOP)) {
         return 1;
     }
@@ -301,6 +306,7 @@ uint32_t knurl_loop_wait(knurl_loop *loop, double seconds) {
 }
 
 void knurl_loop_destroy(knurl_loop *loop) {
+    KNURL_RULE(END, loop);
     if (!loop || KNURL_BAD_HANDLE(loop, LOOP)) {
         return;
     }

@@ -3,6 +3,7 @@
 #include "loop/loop_internal.h"
 
 #include "base/atomic.h"
+#include "base/rule.h"
 #include "base/vec3.h"
 #include "scene/scene.h"
 
@@ -145,6 +146,7 @@ static int run_without_position(knurl_loop *loop, knurl_result why) {
 
 /* Bookkeeping comes after the write, so that it does not delay the force. */
 int knurl_loop_tick(knurl_loop *loop) {
+    KNURL_RULE(HAPTIC, NULL); /* destroying the loop, or its scene, is allowed meanwhile */
     knurl_device_sample sample;
     knurl_tick_output output;
     knurl_result result = knurl_device_read(loop->shared.desc.device, &sample);

@@ -2,6 +2,7 @@
 #include "motion/velocity.h"
 
 #include "base/base.h"
+#include "base/rule.h"
 #include "motion/pair.h"
 
 #include <string.h>
@@ -25,6 +26,7 @@ static inline pair move(knurl_velocity_state *s, int axis, pair p, pair v) {
 
 void knurl_velocity_track(knurl_velocity *estimator, const double position[3], const double velocity[3],
                           double tracked[3]) {
+    KNURL_RULE(HAPTIC, estimator);
     if (KNURL_UNLIKELY(!estimator || !position || !velocity || !tracked)) {
         return;
     }

@@ -5,6 +5,7 @@
 
 #include "base/finite.h"
 #include "base/handle.h"
+#include "base/rule.h"
 #include "motion/pair.h"
 
 #include <math.h>
@@ -237,6 +238,7 @@ __attribute__((target("avx"))) static void foaw_avx(knurl_velocity_state *veloci
 #endif
 
 void knurl_velocity_update(knurl_velocity *velocity, const double position[3], double out[3]) {
+    KNURL_RULE(HAPTIC, velocity);
     if (!velocity || !position || !out) {
         return;
     }

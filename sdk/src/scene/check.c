@@ -3,6 +3,7 @@
 
 #include "base/base.h"
 #include "base/format.h"
+#include "base/rule.h"
 #include "contact/mesh_query.h"
 #include "grating/methods.h"
 
@@ -264,6 +265,7 @@ static void inspect(const knurl_scene *scene, const knurl_hip *hip, const knurl_
 
 knurl_result knurl_scene_check_surface(const knurl_scene *scene, uint32_t hip, knurl_surface_id surface,
                                        knurl_surface_check *check) {
+    KNURL_RULE(NOT_HAPTIC, scene);
     if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(check)) {
         return KNURL_ERROR_ARGUMENT;
     }

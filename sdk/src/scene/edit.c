@@ -3,6 +3,7 @@
 #include "scene/scene.h"
 
 #include "base/base.h"
+#include "base/rule.h"
 
 static knurl_result add(knurl_scene *scene, knurl_surface_data *surface) {
     knurl_result result = knurl_surfaces_add(&scene->surfaces, surface);
@@ -66,6 +67,7 @@ static knurl_result put(knurl_scene *scene, const knurl_surface_desc *desc, int 
 }
 
 knurl_result knurl_scene_add_surface(knurl_scene *scene, const knurl_surface_desc *desc, knurl_surface_id *surface) {
+    KNURL_RULE(NOT_HAPTIC, scene);
     if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(desc)) {
         return KNURL_ERROR_ARGUMENT;
     }
@@ -78,6 +80,7 @@ knurl_result knurl_scene_add_surface(knurl_scene *scene, const knurl_surface_des
 }
 
 knurl_result knurl_scene_replace_surface(knurl_scene *scene, knurl_surface_id surface, const knurl_surface_desc *desc) {
+    KNURL_RULE(NOT_HAPTIC, scene);
     if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(desc)) {
         return KNURL_ERROR_ARGUMENT;
     }
@@ -85,6 +88,7 @@ knurl_result knurl_scene_replace_surface(knurl_scene *scene, knurl_surface_id su
 }
 
 knurl_result knurl_scene_remove_surface(knurl_scene *scene, knurl_surface_id surface) {
+    KNURL_RULE(NOT_HAPTIC, scene);
     knurl_surface_data *data;
     const knurl_result result = knurl_scene_lock_surface(scene, surface, &data);
     if (!result) {
@@ -111,6 +115,7 @@ static knurl_result set_material(knurl_scene *scene, knurl_surface_data *surface
 
 knurl_result knurl_scene_set_material(knurl_scene *scene, knurl_surface_id surface,
                                       const knurl_material_desc *material) {
+    KNURL_RULE(NOT_HAPTIC, scene);
     if (KNURL_IS_NULL(material)) {
         return KNURL_ERROR_ARGUMENT;
     }
@@ -142,6 +147,7 @@ static knurl_result set_transform(knurl_scene *scene, knurl_surface_data *surfac
 
 knurl_result knurl_scene_set_transform(knurl_scene *scene, knurl_surface_id surface, const double position[3],
                                        const double rotation[4], double seconds) {
+    KNURL_RULE(NOT_HAPTIC, scene);
     if (KNURL_IS_NULL(position) || KNURL_IS_NULL(rotation)) {
         return KNURL_ERROR_ARGUMENT;
     }
@@ -160,6 +166,7 @@ knurl_result knurl_scene_set_transform(knurl_scene *scene, knurl_surface_id surf
 }
 
 void knurl_scene_collect(knurl_scene *scene) {
+    KNURL_RULE(NOT_HAPTIC, scene);
     if (KNURL_BAD_HANDLE(scene, SCENE)) {
         return;
     }

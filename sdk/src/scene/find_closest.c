@@ -3,6 +3,7 @@
 
 #include "base/base.h"
 #include "base/range.h"
+#include "base/rule.h"
 #include "contact/bvh_search.h"
 #include "contact/mesh_query.h"
 #include "contact/mesh_walk.h"
@@ -161,6 +162,7 @@ static knurl_result find_closest(const knurl_scene *scene, const double position
 
 knurl_result knurl_scene_find_closest(const knurl_scene *scene, const double position[3], double radius,
                                       knurl_surface_point *point) {
+    KNURL_RULE(NOT_HAPTIC, scene);
     if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(position) || KNURL_IS_NULL(point)) {
         return KNURL_ERROR_ARGUMENT;
     }
@@ -170,6 +172,7 @@ knurl_result knurl_scene_find_closest(const knurl_scene *scene, const double pos
 
 knurl_result knurl_scene_find_closest_batch(const knurl_scene *scene, const double *positions, uint64_t count,
                                             double radius, knurl_surface_point *points) {
+    KNURL_RULE(NOT_HAPTIC, scene);
     if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(positions) || KNURL_IS_NULL(points)) {
         return KNURL_ERROR_ARGUMENT;
     }

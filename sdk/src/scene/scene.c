@@ -3,6 +3,7 @@
 
 #include "base/atomic.h"
 #include "base/base.h"
+#include "base/rule.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -56,6 +57,7 @@ static uint64_t next_tag(void) {
 }
 
 knurl_result knurl_scene_create(const knurl_scene_desc *desc, knurl_scene **scene) {
+    KNURL_RULE(GAME, NULL);
     if (KNURL_IS_NULL(scene)) {
         return KNURL_ERROR_ARGUMENT;
     }
@@ -104,6 +106,7 @@ knurl_result knurl_scene_create(const knurl_scene_desc *desc, knurl_scene **scen
 
 /* The owner or the last loop that uses the scene frees it, whichever comes last. */
 void knurl_scene_destroy(knurl_scene *scene) {
+    KNURL_RULE(END, scene);
     if (!scene || KNURL_BAD_HANDLE(scene, SCENE)) {
         return;
     }
@@ -220,6 +223,7 @@ static knurl_result commit(knurl_scene *scene) {
 }
 
 knurl_result knurl_scene_commit(knurl_scene *scene) {
+    KNURL_RULE(GAME, scene);
     if (KNURL_BAD_HANDLE(scene, SCENE)) {
         return KNURL_ERROR_ARGUMENT;
     }
@@ -230,6 +234,7 @@ knurl_result knurl_scene_commit(knurl_scene *scene) {
 }
 
 uint32_t knurl_scene_get_surface_count(const knurl_scene *scene) {
+    KNURL_RULE(NOT_HAPTIC, scene);
     if (KNURL_BAD_HANDLE(scene, SCENE)) {
         return 0;
     }
@@ -240,6 +245,7 @@ uint32_t knurl_scene_get_surface_count(const knurl_scene *scene) {
 }
 
 knurl_surface_id knurl_scene_get_surface(const knurl_scene *scene, uint32_t index) {
+    KNURL_RULE(NOT_HAPTIC, scene);
     if (KNURL_BAD_HANDLE(scene, SCENE)) {
         return 0;
     }
@@ -265,6 +271,7 @@ static const knurl_surface_data *find(const knurl_scene *scene, const char *name
 }
 
 knurl_result knurl_scene_find_surface(const knurl_scene *scene, const char *name, knurl_surface_id *surface) {
+    KNURL_RULE(NOT_HAPTIC, scene);
     if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(name) || KNURL_IS_NULL(surface)) {
         return KNURL_ERROR_ARGUMENT;
     }
@@ -296,6 +303,7 @@ void knurl_scene_copy_name(const knurl_surface_data *surface, char name[KNURL_NA
 
 knurl_result knurl_scene_get_surface_name(const knurl_scene *scene, knurl_surface_id surface,
                                           char name[KNURL_NAME_SIZE]) {
+    KNURL_RULE(NOT_HAPTIC, scene);
     if (KNURL_IS_NULL(name)) {
         return KNURL_ERROR_ARGUMENT;
     }
@@ -309,6 +317,7 @@ knurl_result knurl_scene_get_surface_name(const knurl_scene *scene, knurl_surfac
 }
 
 uint64_t knurl_scene_get_bytes(const knurl_scene *scene) {
+    KNURL_RULE(NOT_HAPTIC, scene);
     if (KNURL_BAD_HANDLE(scene, SCENE)) {
         return 0;
     }
@@ -316,6 +325,7 @@ uint64_t knurl_scene_get_bytes(const knurl_scene *scene) {
 }
 
 knurl_result knurl_scene_lock_memory(knurl_scene *scene) {
+    KNURL_RULE(GAME, scene);
     if (KNURL_BAD_HANDLE(scene, SCENE)) {
         return KNURL_ERROR_ARGUMENT;
     }

@@ -4,6 +4,7 @@
 
 #include "base/atomic.h"
 #include "base/base.h"
+#include "base/rule.h"
 
 /* Under the lock, because editing threads read the HIPs' times. */
 static knurl_result set_up(knurl_scene *scene, knurl_hip *hip, const knurl_hip_desc *d, const knurl_hip_facts *device,
@@ -30,6 +31,7 @@ static knurl_result refuse_in_use(const knurl_scene *scene, uint32_t hip) {
 }
 
 knurl_result knurl_scene_configure_hip(knurl_scene *scene, uint32_t hip, const knurl_hip_desc *desc) {
+    KNURL_RULE_OF_HIP(CONFIGURE, scene, hip);
     if (KNURL_BAD_HANDLE(scene, SCENE)) {
         return KNURL_ERROR_ARGUMENT;
     }
@@ -47,6 +49,7 @@ knurl_result knurl_scene_configure_hip(knurl_scene *scene, uint32_t hip, const k
 }
 
 knurl_result knurl_scene_set_gains(knurl_scene *scene, uint32_t hip, const knurl_gain *gains, uint32_t count) {
+    KNURL_RULE_OF_HIP(CONFIGURE, scene, hip);
     if (KNURL_BAD_HANDLE(scene, SCENE)) {
         return KNURL_ERROR_ARGUMENT;
     }
@@ -87,6 +90,7 @@ static knurl_result set_effects(knurl_scene *scene, knurl_hip *hip, const knurl_
 
 knurl_result knurl_scene_set_effects(knurl_scene *scene, uint32_t hip, const knurl_effect *effects, uint32_t count,
                                      double seconds) {
+    KNURL_RULE(NOT_HAPTIC, scene);
     if (KNURL_BAD_HANDLE(scene, SCENE)) {
         return KNURL_ERROR_ARGUMENT;
     }
@@ -123,6 +127,7 @@ knurl_result knurl_scene_adopt_device(knurl_scene *scene, uint32_t hip, const kn
 }
 
 knurl_result knurl_scene_get_workspace(const knurl_scene *scene, uint32_t hip, knurl_workspace *workspace) {
+    KNURL_RULE(NOT_HAPTIC, scene);
     if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(workspace)) {
         return KNURL_ERROR_ARGUMENT;
     }
@@ -142,6 +147,7 @@ knurl_result knurl_scene_get_workspace(const knurl_scene *scene, uint32_t hip, k
 
 knurl_result knurl_scene_set_workspace(knurl_scene *scene, uint32_t hip, const knurl_workspace *workspace,
                                        double seconds) {
+    KNURL_RULE(NOT_HAPTIC, scene);
     if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(workspace)) {
         return KNURL_ERROR_ARGUMENT;
     }

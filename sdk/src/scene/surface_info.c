@@ -4,6 +4,7 @@
 #include "surface/surface_frame.h"
 
 #include "base/base.h"
+#include "base/rule.h"
 #include "base/vec3.h"
 
 #include <string.h>
@@ -128,6 +129,7 @@ static int needs_count(const knurl_shape *shape) {
 
 knurl_result knurl_scene_get_surface_info(const knurl_scene *scene, knurl_surface_id surface,
                                           knurl_surface_info *info) {
+    KNURL_RULE(NOT_HAPTIC, scene);
     if (KNURL_IS_NULL(info)) {
         return KNURL_ERROR_ARGUMENT;
     }
@@ -148,6 +150,7 @@ knurl_result knurl_scene_get_surface_info(const knurl_scene *scene, knurl_surfac
 
 knurl_result knurl_scene_get_material(const knurl_scene *scene, knurl_surface_id surface,
                                       knurl_material_desc *material) {
+    KNURL_RULE(NOT_HAPTIC, scene);
     if (KNURL_IS_NULL(material)) {
         return KNURL_ERROR_ARGUMENT;
     }

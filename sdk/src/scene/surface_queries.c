@@ -4,10 +4,12 @@
 
 #include "base/base.h"
 #include "base/range.h"
+#include "base/rule.h"
 
 #include <string.h>
 
 uint32_t knurl_scene_has_surface(const knurl_scene *scene, knurl_surface_id surface) {
+    KNURL_RULE(NOT_HAPTIC, scene);
     if (KNURL_BAD_HANDLE(scene, SCENE)) {
         return 0;
     }
@@ -63,6 +65,7 @@ static void cast_at(const knurl_scene *scene, const knurl_surface_data *surface,
 
 knurl_result knurl_scene_cast_ray(const knurl_scene *scene, const double from[3], const double to[3],
                                   knurl_surface_point *point) {
+    KNURL_RULE(NOT_HAPTIC, scene);
     if (KNURL_BAD_HANDLE(scene, SCENE) || KNURL_IS_NULL(from) || KNURL_IS_NULL(to) || KNURL_IS_NULL(point)) {
         return KNURL_ERROR_ARGUMENT;
     }
@@ -89,6 +92,7 @@ knurl_result knurl_scene_cast_ray(const knurl_scene *scene, const double from[3]
 /* Ids are made from place and generation, because surfaces may have been removed and freed since the tick. */
 uint32_t knurl_scene_get_contacts(const knurl_scene *scene, uint32_t hip, knurl_hip_contact *contacts,
                                   uint32_t capacity) {
+    KNURL_RULE_OF_HIP(HAPTIC, scene, hip);
     if (!KNURL_IS_HANDLE(scene, SCENE) || hip >= scene->hip_count) {
         return 0;
     }

@@ -7,6 +7,7 @@
 
 #include "base/atomic.h"
 #include "base/base.h"
+#include "base/rule.h"
 #include "motion/velocity.h"
 #include "proxy/felt.h"
 
@@ -335,6 +336,7 @@ static inline int is_reserved_zero(const knurl_tick_input *input) {
 
 knurl_result knurl_scene_tick(knurl_scene *scene, uint32_t hip_index, const knurl_tick_input *input,
                               knurl_tick_output *output) {
+    KNURL_RULE_OF_HIP(HAPTIC, scene, hip_index);
     if (!KNURL_IS_HANDLE(scene, SCENE) || !input || !output) {
         return refuse(KNURL_ERROR_ARGUMENT,
                       "knurl_scene_tick: expected a scene, an input and an output, found null or an invalid handle",
@@ -361,6 +363,7 @@ knurl_result knurl_scene_tick(knurl_scene *scene, uint32_t hip_index, const knur
 
 knurl_result knurl_scene_tick_batch(knurl_scene *scene, uint32_t hip_index, const knurl_tick_input *inputs,
                                     uint64_t count, knurl_tick_output *outputs) {
+    KNURL_RULE_OF_HIP(HAPTIC, scene, hip_index);
     if (!KNURL_IS_HANDLE(scene, SCENE) || !inputs || !outputs) {
         return refuse(KNURL_ERROR_ARGUMENT,
                       "knurl_scene_tick_batch: expected a scene, inputs and outputs, found null or an invalid handle",

@@ -4,6 +4,7 @@
 #include "stroke/walk.h"
 
 #include "base/base.h"
+#include "base/rule.h"
 
 #include <knurl/stroke.h>
 
@@ -367,6 +368,7 @@ static knurl_result lay(planner *l, const knurl_scene *scene, knurl_surface_id i
 
 knurl_result knurl_fake_lay_stroke(knurl_device *device, const knurl_scene *scene, uint32_t hip,
                                    knurl_surface_id surface, int32_t stroke, knurl_stroke_report *report) {
+    KNURL_RULE(GAME, device);
     if (KNURL_BAD_HANDLE(device, DEVICE) || KNURL_BAD_HANDLE(scene, SCENE)) {
         return KNURL_ERROR_ARGUMENT;
     }

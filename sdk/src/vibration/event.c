@@ -1,6 +1,7 @@
 /* One T3 event: Algorithms 2, 4 and 5 with Eqs. 7 and 8, chosen by Algorithm 6. SPDX-License-Identifier: MIT */
 #include "vibration/event.h"
 #include "base/handle.h"
+#include "base/rule.h"
 #include "vibration/ticks.h"
 
 #include <math.h>
@@ -53,6 +54,7 @@ void knurl_vibration_event_fill(double period_ticks, double amplitude, knurl_vib
 }
 
 knurl_result knurl_vibration_event_prepare(double period_ticks, double amplitude, knurl_vibration_event *event) {
+    KNURL_RULE(NOT_HAPTIC, NULL);
     if (KNURL_IS_NULL(event)) {
         return KNURL_ERROR_ARGUMENT;
     }

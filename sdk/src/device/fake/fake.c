@@ -8,6 +8,7 @@
 
 #include "base/atomic.h"
 #include "base/base.h"
+#include "base/rule.h"
 #include "base/vec3.h"
 
 #include <stdio.h>
@@ -178,6 +179,7 @@ static knurl_result fake_write(knurl_device *device, const double force[3]) {
 }
 
 knurl_result knurl_fake_get_truth(const knurl_device *device, knurl_fake_truth *truth) {
+    KNURL_RULE(HAPTIC, device);
     const fake *f = (const fake *)(const void *)device;
     if (!KNURL_IS_HANDLE(device, DEVICE) || !truth) {
         return knurl_fail_static(KNURL_ERROR_ARGUMENT,
@@ -203,6 +205,7 @@ static knurl_result check_fake(const knurl_device *device, const char *what) {
 }
 
 knurl_result knurl_fake_set_stroke(knurl_device *device, const knurl_stroke_desc *desc) {
+    KNURL_RULE(GAME, device);
     if (KNURL_BAD_HANDLE(device, DEVICE) || KNURL_IS_NULL(desc)) {
         return KNURL_ERROR_ARGUMENT;
     }
@@ -247,6 +250,7 @@ static knurl_result check_trace(const double *rows, uint64_t row_count) {
 }
 
 knurl_result knurl_fake_set_trace(knurl_device *device, const double *rows, uint64_t row_count) {
+    KNURL_RULE(GAME, device);
     if (KNURL_BAD_HANDLE(device, DEVICE) || KNURL_IS_NULL(rows)) {
         return KNURL_ERROR_ARGUMENT;
     }
