@@ -1,7 +1,6 @@
 /* Compares each call with those that run. A spinning lock, not a system's: ticks call this too.
  * SPDX-License-Identifier: MIT */
 #include "base/rule.h"
-#include "base/error.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,8 +8,8 @@
 static knurl_call *running; /* guarded by `lock` */
 static char lock;
 /* Of this thread; the address of the first is the thread's name. */
-static KNURL_THREAD_LOCAL const char *ticking; /* the outermost tick that it is in, or null */
-static KNURL_THREAD_LOCAL uint32_t depth;      /* of calls within calls */
+static __thread const char *ticking; /* the outermost tick that it is in, or null */
+static __thread uint32_t depth;      /* of calls within calls */
 
 static const char *const sentences[] = {
     "is for any thread but the haptic",
