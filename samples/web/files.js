@@ -96,7 +96,8 @@ export class Files {
   // The parts of an own file that can still be given ridges.
   listParts() {
     const parts = scene.isOwn ? scene.view?.parts ?? [] : [];
-    $("part").replaceChildren(...parts.map(({ node, name }) => new Option(name, node)));
+    const chosen = $("part").value;
+    $("part").replaceChildren(...parts.map(({ node, name }) => new Option(name, node, false, String(node) === chosen)));
     $("give").disabled = parts.length === 0;
   }
 
