@@ -258,9 +258,9 @@ print(len(seen) > 0)
     def test_ctrl_c_ends_a_wait(self):
         self.assertEqual(self.probe("""
 import _thread
-threading.Timer(0.2, _thread.interrupt_main).start()
 try:
     with knurl.Loop(scene, knurl.Device("fake")) as loop:
+        threading.Timer(0.2, _thread.interrupt_main).start() # not before: within a destructor Python drops the interrupt
         loop.wait()
 except KeyboardInterrupt:
     print("interrupted", loop.closed)
