@@ -6,14 +6,18 @@
 #include "base/base.h"
 #include "contact/plane.h"
 
+/* 1 if a HIP that was inside a rectangle, and is at a height of z (m) above the same side, still is. */
+static inline int knurl_plane_keeps(const knurl_plane *plane, const double hip[3], double z) {
+    return z <= KNURL_ON_SURFACE && knurl_plane_spans(plane, hip);
+}
+
 /* Fast path of knurl_plane_contact(), with the same result: the HIP was inside, and still is below a rectangle, so that
  * its state stays as it is. Otherwise returns 0 and changes nothing. */
 static inline int knurl_plane_hold(const knurl_plane *plane, const double hip[3], const knurl_contact_state *state,
                                    knurl_contact *contact) {
     const double side = state->side;
     const double z = hip[2] * side;
-    if (KNURL_UNLIKELY(!state->inside || plane->outline || !(z <= KNURL_ON_SURFACE) ||
-                       !knurl_plane_spans(plane, hip))) {
+    if (KNURL_UNLIKELY(!state->inside || plane->outline || !knurl_plane_keeps(plane, hip, z))) {
         return 0;
     }
     knurl_plane_set_contact(hip, z, side, contact);

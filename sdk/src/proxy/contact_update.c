@@ -36,6 +36,10 @@ static inline int is_within_view(const knurl_contacts *c, const double *margin, 
 static inline int place_alone(knurl_contacts *c, const knurl_broad_index *index, knurl_active_contact *a) {
     knurl_candidate *candidate = a->candidate;
     const knurl_pose *before;
+    if (KNURL_LIKELY(knurl_contact_is_steady(a, index))) { /* as in the last tick, also its pose */
+        candidate->placed = c->clock.tick;
+        return 1;
+    }
     a->surface = knurl_candidate_surface(index, candidate);
     if (KNURL_UNLIKELY(!a->surface)) {
         return 0;
@@ -90,6 +94,9 @@ static inline int hold_alone(knurl_contacts *c, const knurl_broad_index *index, 
     vec3_copy(normal, candidate->normal);
     vec3_copy(hip, candidate->previous);
     a->normal = candidate->normal;
+    a->steady = a->pose == &a->record->motion.end ? a->record->edits : 0;
+    a->rectangle = a->steady && plane && !plane->outline && state->inside ? plane : NULL;
+    a->seam = a->surface->shape.seam;
     a->begins = a->is_unfelt = 0;
     a->share = a->friction_share = 1.0;
     a->felt.parts.count = 0;
@@ -218,6 +225,10 @@ __attribute__((noinline)) static void find_jointly(knurl_contacts *c, const knur
 void knurl_contacts_find(knurl_contacts *c, const knurl_broad_phase *phase, const knurl_broad_index *index,
                          const double position[3], int clear, uint32_t *flags) {
     double margin;
+    knurl_active_contact *first = &c->now.list[0];
+    if (c->now.count == 1 && first->rectangle) { /* knurl_contacts_slide() left it behind */
+        vec3_madd(first->candidate->proxy, first->seam, first->candidate->normal, c->proxy.at);
+    }
     c->budget.visits = knurl_visits_of(c->budget.max);
     knurl_candidate *alone = KNURL_LIKELY(clear && c->now.count == 1) ? c->now.list[0].candidate : NULL;
     if (KNURL_UNLIKELY(!clear)) {

@@ -20,6 +20,8 @@ int knurl_contacts_add(knurl_contacts *c, knurl_candidate *candidate, const knur
     a->pose = pose;
     a->candidate = candidate;
     a->contact = touched->contact;
+    a->steady = 0;
+    a->rectangle = NULL;
     a->begins = !candidate->in_contact;
     if (a->begins) {
         memset(&candidate->grating, 0, sizeof candidate->grating);

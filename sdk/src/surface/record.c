@@ -78,8 +78,8 @@ knurl_record *knurl_record_copy(knurl_heap *heap, const knurl_record *record) {
     if (made) {
         if (record) {
             *made = *record;
-            made->edits++;
         }
+        made->edits++;
         made->retired.next = NULL;
         made->retired.release = release;
     }

@@ -19,7 +19,7 @@ enum {
 /* Immutable once published: an edit publishes another one. */
 typedef struct knurl_record {
     knurl_retired retired;
-    uint64_t edits;               /* of the surface, up to this record: unlike an address, never used again */
+    uint64_t edits;               /* of the surface, from 1 to this record: unlike an address, never used again */
     knurl_material_desc material; /* method resolved */
     double cos_sin[2];            /* of the orientation */
     double crest;                 /* m: height of the highest crest */
