@@ -52,6 +52,7 @@ void knurl_passivity_init(knurl_passivity *p, const knurl_hip_facts *facts) {
 void knurl_passivity_set_scale(knurl_passivity *p, int watches, const knurl_hip_facts *facts, double scale) {
     p->safe = watches ? (facts->viscous + LOOSE_HAND) * facts->rate / ((0.5 + facts->delay) * scale) : HUGE_VAL;
     p->unit = scale;
+    p->reversal = KNURL_PASSIVITY_REVERSAL * scale;
 }
 
 /* A swing ends when the depth reverses. Friction's spring, along the wall and of the same stiffness, is not watched: it
@@ -83,7 +84,8 @@ void knurl_passivity_end_swing(knurl_passivity *p) {
     p->outwards = !p->outwards;
     p->before = p->ticks;
     p->crossed = p->crossings;
-    p->ticks = p->crossings = 0;
+    p->ticks = 0;
+    p->crossings = 0;
     p->moved = 0.0;
 }
 

@@ -19,11 +19,12 @@ typedef struct knurl_passivity {
     double largest;    /* m: largest swing of the row, decaying */
     double squares;    /* m^2: of the row's swings */
     double moved;      /* m: total change of H since the last reversal */
-    int32_t crossings; /* zero crossings of H since the last reversal */
-    int32_t crossed;   /* and in the half swing before */
+    double reversal;    /* m: KNURL_PASSIVITY_REVERSAL, scene */
+    uint32_t crossings; /* zero crossings of H since the last reversal */
+    uint32_t crossed;   /* and in the half swing before */
     int32_t row;       /* swings in the row, each as large as those before it */
     int32_t longest;   /* ticks: a longer swing in and out may be a hand's motion */
-    int32_t ticks;     /* since the last reversal */
+    int32_t ticks;     /* since the last reversal, at most one more than `longest` */
     int32_t before;    /* and in the half swing before */
     int32_t outwards;  /* 1: heading out */
     int32_t busy;      /* 1: there is a depth to follow, or an alarm */
@@ -51,22 +52,21 @@ static inline void knurl_passivity_end_row(knurl_passivity *p) {
 
 /* Advances by one tick. Only needed while `busy`. */
 static inline void knurl_passivity_follow(knurl_passivity *p) {
-    const double beyond = p->outwards ? p->farthest - p->depth : p->depth - p->farthest;
+    const double behind = p->outwards ? p->depth - p->farthest : p->farthest - p->depth;
     if (KNURL_UNLIKELY(p->alarmed)) {
         knurl_passivity_go_on(p);
         p->depth = 0.0;
         return;
     }
-    p->ticks++;
-    if (beyond > 0.0) {
-        p->farthest = p->depth;
-    } else if (KNURL_UNLIKELY(-beyond > KNURL_PASSIVITY_REVERSAL * p->unit)) {
+    const int is_long = p->ticks > p->longest; /* it ends the row, whatever follows */
+    if (!is_long) {
+        p->ticks++;
+    }
+    if (KNURL_UNLIKELY(behind > p->reversal)) {
         knurl_passivity_end_swing(p);
-    } else if (p->ticks > p->longest) { /* at rest, or outside */
-        knurl_passivity_end_row(p);
-        p->ticks = p->longest;
-        p->crossings = 0;
-        p->moved = 0.0;
+    } else if (behind < 0.0) {
+        p->farthest = p->depth;
+    } else if (is_long) { /* at rest, or outside */
         p->busy = p->depth > 0.0;
     }
     p->depth = 0.0;

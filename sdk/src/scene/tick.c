@@ -83,19 +83,22 @@ static int read_hip(knurl_hip *hip, const knurl_tick_input *input, knurl_tick_ou
         knurl_velocity_update(&hip->velocity, input->position, hip->estimate);
         velocity = hip->estimate;
     }
-    if (hip->is_rotated) {
-        knurl_workspace_to_scene(w, input->position, out->hip);
-        mat3_mul(w->rotation, velocity, out->hip_velocity);
-        vec3_scale(w->scale, out->hip_velocity, out->hip_velocity);
+    double at[3], moving[3];
+    if (KNURL_UNLIKELY(hip->is_rotated)) {
+        knurl_workspace_to_scene(w, input->position, at);
+        mat3_mul(w->rotation, velocity, moving);
+        vec3_scale(w->scale, moving, moving);
     } else {
-        vec3_madd(w->origin, w->scale, input->position, out->hip);
-        vec3_scale(w->scale, velocity, out->hip_velocity);
+        vec3_madd(w->origin, w->scale, input->position, at);
+        vec3_scale(w->scale, velocity, moving);
     }
-    if (is_moving) {
-        add_workspace_velocity(hip, out->hip, zoom, out->hip_velocity);
+    if (KNURL_UNLIKELY(is_moving)) {
+        add_workspace_velocity(hip, at, zoom, moving);
     }
+    vec3_copy(at, out->hip);
+    vec3_copy(moving, out->hip_velocity);
     begin_output(out);
-    return vec3_sum(out->hip) <= KNURL_COORDINATE_MAX && vec3_sum(out->hip_velocity) <= SPEED_MAX;
+    return vec3_sum(at) <= KNURL_COORDINATE_MAX && vec3_sum(moving) <= SPEED_MAX;
 }
 
 /* Reports one contact; of several, the deepest. */
