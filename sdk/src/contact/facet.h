@@ -42,20 +42,15 @@ static inline void knurl_facet_keep(const knurl_closest_point *closest, int32_t 
     vec3_copy(unit, f->unit);
 }
 
-/* Returns 1 and the contact if the HIP's closest point is inside the triangle, else 0 and the closest point on its
- * edges. The same numbers as from knurl_closest_on_triangle(). */
-static inline int knurl_facet_contact(const knurl_facet *f, const double hip[3], knurl_contact *c,
-                                      knurl_closest_point *closest) {
+/* Returns 1 and the contact if the HIP's closest point is inside the triangle, else 0. inside: for
+ * knurl_closest_on_edges(). The same numbers as from knurl_closest_on_triangle(). */
+static inline int knurl_facet_contact(const knurl_facet *f, const double hip[3], double inside[2], knurl_contact *c) {
     double ap[3], across[3], offset[3];
     vec3_sub(hip, f->corners[0], ap);
     vec3_cross(f->cross, ap, across);
-    const double inside[2] = {vec3_dot(across, f->ac), -vec3_dot(across, f->ab)};
+    inside[0] = vec3_dot(across, f->ac);
+    inside[1] = -vec3_dot(across, f->ab);
     if (!(inside[0] > 0.0 && inside[1] > 0.0 && inside[0] + inside[1] < f->cross2)) {
-        closest->triangle = f->triangle;
-        closest->cross2 = f->cross2;
-        vec3_copy(f->cross, closest->cross);
-        memcpy(closest->corners, f->corners, sizeof closest->corners);
-        knurl_closest_on_edges(hip, inside, closest);
         return 0;
     }
     vec3_scale(vec3_dot(ap, f->cross) * f->inverse, f->cross, offset);
@@ -65,8 +60,18 @@ static inline int knurl_facet_contact(const knurl_facet *f, const double hip[3],
     c->weights[0] = 1.0 - c->weights[1] - c->weights[2];
     c->triangle = f->triangle;
     vec3_copy(f->unit, c->normal);
-    c->z = vec3_dot(offset, c->normal);
+    c->z = vec3_dot(offset, f->unit);
     return 1;
+}
+
+/* The closest point to a HIP on the triangle's edges. inside: from knurl_facet_contact(). */
+static inline void knurl_facet_edges(const knurl_facet *f, const double hip[3], const double inside[2],
+                                     knurl_closest_point *closest) {
+    closest->triangle = f->triangle;
+    closest->cross2 = f->cross2;
+    vec3_copy(f->cross, closest->cross);
+    memcpy(closest->corners, f->corners, sizeof closest->corners);
+    knurl_closest_on_edges(hip, inside, closest);
 }
 
 #endif

@@ -280,12 +280,15 @@ static int walk_to_closest(const knurl_mesh *mesh, const knurl_contact_query *qu
                            knurl_closest_point *closest, knurl_contact *c) {
     knurl_facet *facet = query->facet;
     const int is_kept = facet && facet->triangle == state->triangle && facet->side == state->side;
-    const int is_above = is_kept && knurl_facet_contact(facet, query->hip, c, closest);
+    double inside[2];
+    const int is_above = is_kept && knurl_facet_contact(facet, query->hip, inside, c);
     if (is_above && c->z <= 0.0) {
         c->facet = facet;
         return 0;
     }
-    if (is_above || !is_kept) {
+    if (is_kept && !is_above) {
+        knurl_facet_edges(facet, query->hip, inside, closest);
+    } else {
         knurl_closest_on_triangle(mesh, state->triangle, query->hip, closest);
     }
     if (closest->feature != 7) {

@@ -95,7 +95,7 @@ static inline int hold_alone(knurl_contacts *c, const knurl_broad_index *index, 
     vec3_copy(hip, candidate->previous);
     a->normal = candidate->normal;
     a->steady = a->pose == &a->record->motion.end ? a->record->edits : 0;
-    a->rectangle = a->steady && plane && !plane->outline && state->inside ? plane : NULL;
+    a->slides = a->steady && state->inside && (plane ? !plane->outline : a->contact.facet == &candidate->facet);
     a->seam = a->surface->shape.seam;
     a->begins = a->is_unfelt = 0;
     a->share = a->friction_share = 1.0;
@@ -226,7 +226,7 @@ void knurl_contacts_find(knurl_contacts *c, const knurl_broad_phase *phase, cons
                          const double position[3], int clear, uint32_t *flags) {
     double margin;
     knurl_active_contact *first = &c->now.list[0];
-    if (c->now.count == 1 && first->rectangle) { /* knurl_contacts_slide() left it behind */
+    if (c->now.count == 1 && first->slides) { /* knurl_contacts_slide() left it behind */
         vec3_madd(first->candidate->proxy, first->seam, first->candidate->normal, c->proxy.at);
     }
     c->budget.visits = knurl_visits_of(c->budget.max);

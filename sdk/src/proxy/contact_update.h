@@ -22,29 +22,47 @@ static inline int knurl_contact_is_steady(const knurl_active_contact *a, const k
            __atomic_load_n(&surface->record, __ATOMIC_SEQ_CST)->edits == a->steady;
 }
 
-/* Fast path of knurl_contacts_find(), with the same result: a rectangle that is steady still holds the HIP, and nothing
- * else is near. Only the HIP's place in it is new. Otherwise returns 0 and changes nothing. */
+/* Contact of a HIP (shape's frame) with the rectangle or the facet that held it in the last tick, and has not moved
+ * since. Returns 0, with `contact` undefined, if that no longer holds it. */
+static inline int knurl_contact_goes_on(const knurl_active_contact *a, const double hip[3], knurl_contact *contact) {
+    const knurl_plane *plane = a->surface->shape.plane;
+    double inside[2];
+    if (!plane) {
+        return knurl_facet_contact(&a->candidate->facet, hip, inside, contact) && contact->z <= 0.0;
+    }
+    contact->proxy[0] = hip[0];
+    contact->proxy[1] = hip[1];
+    contact->z = hip[2] * contact->normal[2];
+    return knurl_plane_keeps(plane, hip, contact->z);
+}
+
+/* Fast path of knurl_contacts_find(), with the same result: the face that alone held the HIP in the last tick still
+ * does, stands still and was not edited, and nothing else is near. Only the HIP's place on it is new. Otherwise returns
+ * 0 and changes nothing that a search reads. */
 static inline int knurl_contacts_slide(knurl_contacts *c, const knurl_broad_index *index, const double position[3]) {
     knurl_active_contact *a = &c->now.list[0];
     knurl_candidate *candidate = a->candidate;
     double hip[3], proxy[3];
-    if (c->now.count != 1 || !a->rectangle || !knurl_contact_is_steady(a, index)) {
+    if (c->now.count != 1 || !a->slides || !knurl_contact_is_steady(a, index)) {
         return 0;
     }
     knurl_pose_to_own(a->pose, position, hip);
-    const double z = hip[2] * a->contact.normal[2];
-    const double at[3] = {hip[0], hip[1], 0.0};
-    knurl_pose_to_parent(a->pose, at, proxy);
-    if (!knurl_plane_keeps(a->rectangle, hip, z) || !knurl_candidates_are_clear_of(&c->candidates, proxy)) {
+    if (!knurl_contact_goes_on(a, hip, &a->contact)) {
         return 0;
     }
-    a->contact.proxy[0] = hip[0];
-    a->contact.proxy[1] = hip[1];
-    a->contact.z = z;
+    knurl_pose_to_parent(a->pose, a->contact.proxy, proxy);
+    if (!knurl_candidates_are_clear_of(&c->candidates, proxy)) {
+        return 0;
+    }
     vec3_copy(proxy, candidate->proxy);
     vec3_copy(hip, candidate->previous);
     candidate->placed = c->clock.tick;
-    c->proxy.depth = fabs(z);
+    c->proxy.depth = fabs(a->contact.z);
+    if (KNURL_UNLIKELY(a->surface->shape.bulge > 0.0)) { /* knurl_felt_find() has changed these */
+        a->contact.facet = &candidate->facet;
+        a->normal = candidate->normal;
+        a->begins = a->is_unfelt = 0;
+    }
     return 1;
 }
 

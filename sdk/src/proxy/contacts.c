@@ -21,7 +21,7 @@ int knurl_contacts_add(knurl_contacts *c, knurl_candidate *candidate, const knur
     a->candidate = candidate;
     a->contact = touched->contact;
     a->steady = 0;
-    a->rectangle = NULL;
+    a->slides = 0;
     a->begins = !candidate->in_contact;
     if (a->begins) {
         memset(&candidate->grating, 0, sizeof candidate->grating);
