@@ -40,15 +40,16 @@ static inline void knurl_snapshot_put(knurl_published *published, const knurl_hi
  * reserved words are never written. Never waits. [one thread: the haptic one] */
 static inline void knurl_snapshot_publish(knurl_published *published, const knurl_tick_output *output,
                                           const knurl_hip_counts *counts) {
-    const size_t rare = offsetof(knurl_hip_counts, force_limit_ticks);
-    const size_t after = offsetof(knurl_hip_counts, force_max);
+    const size_t rare = offsetof(knurl_hip_counts, force_limit_ticks), after = offsetof(knurl_hip_counts, force_max);
+    const size_t rare_too = offsetof(knurl_hip_counts, squeezed_ticks);
     knurl_seqlock_begin(&published->sequence);
     knurl_seqlock_put(published->words, output, offsetof(knurl_tick_output, reserved));
     knurl_snapshot_put(published, counts, 0, rare);
     if (KNURL_UNLIKELY(output->flags & ~(uint32_t)KNURL_TICK_CONTACT)) {
         knurl_snapshot_put(published, counts, rare, after);
+        knurl_snapshot_put(published, counts, rare_too, offsetof(knurl_hip_counts, reserved));
     }
-    knurl_snapshot_put(published, counts, after, offsetof(knurl_hip_counts, reserved));
+    knurl_snapshot_put(published, counts, after, rare_too);
     knurl_seqlock_end(&published->sequence);
 }
 

@@ -19,7 +19,6 @@
 
 /* Clears the members that contacts add to. */
 static void begin_output(knurl_tick_output *out) {
-    out->force[0] = out->force[1] = out->force[2] = 0.0;
     out->flags = out->contacts = 0;
     memset(out->reserved, 0, sizeof out->reserved);
 }
@@ -85,7 +84,9 @@ static int read_hip(knurl_hip *hip, const knurl_tick_input *input, knurl_tick_ou
     }
     double at[3], moving[3];
     if (KNURL_UNLIKELY(hip->is_rotated)) {
-        knurl_workspace_to_scene(w, input->position, at);
+        double turned[3]; /* a copy, as below, so that `at` itself can stay in registers */
+        knurl_workspace_to_scene(w, input->position, turned);
+        vec3_copy(turned, at);
         mat3_mul(w->rotation, velocity, moving);
         vec3_scale(w->scale, moving, moving);
     } else {
@@ -93,7 +94,9 @@ static int read_hip(knurl_hip *hip, const knurl_tick_input *input, knurl_tick_ou
         vec3_scale(w->scale, velocity, moving);
     }
     if (KNURL_UNLIKELY(is_moving)) {
-        add_workspace_velocity(hip, at, zoom, moving);
+        double there[3] = {at[0], at[1], at[2]}, moved[3] = {moving[0], moving[1], moving[2]};
+        add_workspace_velocity(hip, there, zoom, moved);
+        vec3_copy(moved, moving);
     }
     vec3_copy(at, out->hip);
     vec3_copy(moving, out->hip_velocity);
@@ -231,6 +234,11 @@ static inline double send_force(knurl_hip *hip, double steps, const double force
     return length;
 }
 
+static inline void send_none(knurl_tick_output *out) {
+    out->force[0] = out->force[1] = out->force[2] = 0.0;
+    out->device_force[0] = out->device_force[1] = out->device_force[2] = 0.0;
+}
+
 /* Sums the forces of all contacts, of effects and of the game (N, scene), and sends the sum. Returns its length. */
 static inline double sum_forces(knurl_hip *hip, const knurl_tick_input *input, const knurl_effects *effects,
                                 const knurl_added_force *added, knurl_tick_output *out) {
@@ -275,14 +283,14 @@ static double render(const knurl_scene *scene, knurl_hip *hip, const knurl_tick_
     if (KNURL_UNLIKELY(input->paused)) {
         end_contacts(hip);
         clear_contact_output(out);
-        vec3_copy(out->force, out->device_force);
+        send_none(out);
         return 0.0;
     }
     knurl_contacts_update(&hip->contacts, &scene->broad_phase, index, out->hip, &out->flags);
     const knurl_effects *effects = __atomic_load_n(&hip->effects, __ATOMIC_SEQ_CST);
     double length = 0.0;
     if (is_at_rest(hip, effects, added)) {
-        vec3_copy(out->force, out->device_force);
+        send_none(out);
         knurl_heat_add(&hip->last.heat, 0.0);
     } else {
         length = sum_forces(hip, input, effects, added, out);
