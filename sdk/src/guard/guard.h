@@ -71,7 +71,7 @@ static inline void knurl_guard_before(knurl_guard *guard, knurl_wall *wall, uint
 static inline double knurl_guard_after(knurl_guard *guard, const knurl_wall *wall) {
     knurl_wall_state *contact = wall->contact;
     const double step = fabs(wall->height - contact->height);
-    if (guard->passivity.busy) {
+    if (knurl_passivity_counts(&guard->passivity)) {
         guard->passivity.moved += step;
         guard->passivity.crossings += (wall->height > 0.0) != (contact->height > 0.0);
     }

@@ -72,6 +72,11 @@ static inline void knurl_passivity_follow(knurl_passivity *p) {
     p->depth = 0.0;
 }
 
+/* 1 if it matters what the texture does: not in a swing that is too long already, as at rest. */
+static inline int knurl_passivity_counts(const knurl_passivity *p) {
+    return p->busy && p->ticks <= p->longest;
+}
+
 /* Slow path of knurl_passivity_watch(): softens a wall that the HIP is in during an alarm. */
 void knurl_passivity_soften(knurl_passivity *passivity, knurl_wall *wall) KNURL_NONBLOCKING;
 
