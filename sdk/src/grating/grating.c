@@ -64,5 +64,5 @@ void knurl_grating_step(const knurl_grating *grating, knurl_grating_state *state
                                        1.0 / grating->update_rate_hz,
                                        position != NULL};
     output->reserved = 0;
-    knurl_grating_run(grating, state, &input, output);
+    knurl_grating_run(&knurl_methods[grating->method], grating, state, &input, output);
 }

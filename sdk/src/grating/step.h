@@ -21,9 +21,11 @@ static inline void knurl_grating_note_turn(knurl_grating_state *state, knurl_gra
     state->sign = sign ? sign : state->sign;
 }
 
-/* knurl_grating_step() without its checks. An event plays to its end, also one that another method began. */
-static inline void knurl_grating_run(const knurl_grating *grating, knurl_grating_state *state,
-                                     const knurl_grating_input *input, knurl_grating_output *output) {
+/* knurl_grating_step() without its checks. method: the grating's. An event plays to its end, also one that another
+ * method began. */
+static inline void knurl_grating_run(const knurl_method *method, const knurl_grating *grating,
+                                     knurl_grating_state *state, const knurl_grating_input *input,
+                                     knurl_grating_output *output) {
     const knurl_along v = input->velocity;
     const double speed2 = v.x * v.x + v.y * v.y;
     const double frequency = knurl_grating_highest(grating->spatial_frequency, v);
@@ -32,8 +34,8 @@ static inline void knurl_grating_run(const knurl_grating *grating, knurl_grating
     output->event = KNURL_NO_EVENT;
     output->above_nyquist = frequency > 0.5 * grating->update_rate_hz;
     output->height = state->playing ? knurl_grating_play(state, output)
-                                    : knurl_methods[grating->method].height(grating, state, input->position, v,
-                                                                            input->period, input->has_position, output);
+                                    : method->height(grating, state, input->position, v, input->period,
+                                                     input->has_position, output);
     knurl_grating_note_turn(state, output);
 }
 

@@ -61,7 +61,7 @@ static inline void play_grating(const knurl_hip_motion *hip, const knurl_active_
     knurl_surface_coordinates(c->surface, c->record, &c->contact, c->begins, &c->candidate->carry, coordinates);
     double rates[2] = {velocity.x, velocity.y};
     int32_t has_position = 1;
-    if (knurl_methods[m->method].follows_position) { /* without coordinates the method integrates the velocity */
+    if (c->record->method->follows_position) { /* without coordinates the method integrates the velocity */
         has_position = knurl_surface_rates(c->surface, c->record, &c->contact, over, rates);
         if (hip->facts->resolution > 0.0) {
             add_between(hip->between, c, coordinates);
@@ -80,7 +80,7 @@ static inline void play_grating(const knurl_hip_motion *hip, const knurl_active_
                                    .amplitude = amplitude,
                                    .update_rate_hz = hip->facts->rate,
                                    .resolution = hip->facts->resolution};
-    knurl_grating_run(&grating, &c->candidate->grating, &at, &played);
+    knurl_grating_run(c->record->method, &grating, &c->candidate->grating, &at, &played);
     out->grating = played;
 }
 

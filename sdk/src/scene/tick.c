@@ -166,7 +166,7 @@ static inline double render_contact(knurl_hip *hip, const knurl_tick_input *inpu
         return 0.0;
     }
     const int plays = c->record->has_grating || c->candidate->grating.playing; /* an event plays to its end */
-    if (plays && hip->facts.resolution > 0.0 && knurl_methods[c->record->material.method].follows_position) {
+    if (plays && hip->facts.resolution > 0.0 && c->record->method->follows_position) {
         track(hip, input);
     }
     const knurl_hip_motion motion = {&hip->contacts.clock, out->hip_velocity, &hip->facts, hip->between, &hip->even};

@@ -59,6 +59,7 @@ knurl_result knurl_record_set_material(knurl_record *record, const knurl_shape *
                           knurl_method_name(m.method));
     }
     record->material = m;
+    record->method = &knurl_methods[m.method];
     record->cos_sin[0] = cos(m.orientation);
     record->cos_sin[1] = sin(m.orientation);
     record->crest = smooth ? 0.0 : m.amplitude * knurl_methods[m.method].crest;

@@ -3,6 +3,7 @@
 #define KNURL_SRC_RECORD_H
 
 #include "contact/shape.h"
+#include "grating/method.h"
 #include "surface/epoch.h"
 #include "surface/pose.h"
 
@@ -21,6 +22,7 @@ typedef struct knurl_record {
     knurl_retired retired;
     uint64_t edits;               /* of the surface, from 1 to this record: unlike an address, never used again */
     knurl_material_desc material; /* method resolved */
+    const knurl_method *method;   /* its row */
     double cos_sin[2];            /* of the orientation */
     double crest;                 /* m: height of the highest crest */
     double reach;        /* m in front of the shape at which contact begins: the crest, and the shape's bulge */
