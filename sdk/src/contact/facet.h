@@ -19,7 +19,7 @@ struct knurl_facet {
     /* set by mesh_frame.c */
     int32_t has_frame;     /* 1: x and y are set */
     int32_t has_uvs;       /* 1: the uvs have an area and are set */
-    int32_t has_gradients; /* 1: `gradients` are set */
+    int32_t has_gradients; /* while has_frame: 1: `gradients` are set */
     double x[3], y[3];
     double u0, v0;          /* at the first corner */
     double u1, v1, u2, v2;  /* differences at the others */

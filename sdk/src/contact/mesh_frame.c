@@ -275,7 +275,8 @@ static int rates_on_facet(knurl_facet *f, const double velocity[3], double rates
     return 1;
 }
 
-int knurl_mesh_rates(const knurl_mesh *mesh, const knurl_contact *contact, const double velocity[3], double rates[2]) {
+int knurl_mesh_find_rates(const knurl_mesh *mesh, const knurl_contact *contact, const double velocity[3],
+                          double rates[2]) {
     double x[3], y[3], coordinates[2];
     if (mesh->tangents && mesh->normals && contact->facet && !mesh->has_axis) {
         knurl_facet curved = *contact->facet; /* a copy: with tangents, a kept frame would be wrong */

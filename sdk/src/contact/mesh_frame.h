@@ -45,10 +45,27 @@ static inline void knurl_mesh_frame(const knurl_mesh *mesh, const knurl_contact 
     }
 }
 
-/* Rates of change of those coordinates (m/s) at a velocity of the HIP (m/s). Returns 0 and sets nothing if there is no
- * axis and the uvs have no area. Allowed in a tick. */
-int knurl_mesh_rates(const knurl_mesh *mesh, const knurl_contact *contact, const double velocity[3],
-                     double rates[2]) KNURL_NONBLOCKING;
+/* Slow path of knurl_mesh_rates(), if no gradients are cached. */
+int knurl_mesh_find_rates(const knurl_mesh *mesh, const knurl_contact *contact, const double velocity[3],
+                          double rates[2]) KNURL_NONBLOCKING;
+
+/* Rates of change of those coordinates (m/s) at a velocity of the HIP (m/s). Returns 0 if there is no axis and the uvs
+ * have no area: do not use the outputs then. Allowed in a tick. */
+static inline int knurl_mesh_rates(const knurl_mesh *mesh, const knurl_contact *contact, const double velocity[3],
+                                   double rates[2]) {
+    const knurl_facet *f = contact->facet;
+    if (f && f->has_frame && f->has_gradients) {
+        rates[0] = vec3_dot(f->gradients[0], velocity);
+        rates[1] = vec3_dot(f->gradients[1], velocity);
+        return 1;
+    }
+    const double moving[3] = {velocity[0], velocity[1], velocity[2]}; /* copies, see force_law.h */
+    double found[2] = {0.0, 0.0};
+    const int has_coordinates = knurl_mesh_find_rates(mesh, contact, moving, found);
+    rates[0] = found[0];
+    rates[1] = found[1];
+    return has_coordinates;
+}
 
 /* Makes projected coordinates go on across an edge at which the projection changes. There they would jump, and half
  * cycles would be counted that the HIP has not crossed. begins: 1: the contact's first tick. Allowed in a tick. */

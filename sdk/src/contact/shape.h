@@ -86,15 +86,8 @@ static inline void knurl_shape_frame(const knurl_shape *shape, const knurl_conta
  * not use the outputs then. Allowed in a tick. */
 static inline int knurl_shape_rates(const knurl_shape *shape, const knurl_contact *contact, const double velocity[3],
                                     double rates[2]) KNURL_NONBLOCKING {
-    if (shape->plane) {
-        return knurl_plane_rates(shape->plane, contact, velocity, rates);
-    }
-    const double moving[3] = {velocity[0], velocity[1], velocity[2]}; /* copies, see force_law.h */
-    double found[2] = {0.0, 0.0};
-    const int has_coordinates = knurl_mesh_rates(shape->mesh, contact, moving, found);
-    rates[0] = found[0];
-    rates[1] = found[1];
-    return has_coordinates;
+    return shape->plane ? knurl_plane_rates(shape->plane, contact, velocity, rates)
+                        : knurl_mesh_rates(shape->mesh, contact, velocity, rates);
 }
 
 /* Start of a stroke, as a zeroed contact with proxy, normal, weights and triangle set: on a mesh, the face that a hand
