@@ -28,6 +28,8 @@ typedef struct knurl_candidate {
     uint64_t settled_tick;
     knurl_contact_state contact;
     knurl_grating_state grating;
+    knurl_grating plays; /* the grating of the record with `plays_edits`, but for its amplitude: see force_law.h */
+    uint64_t plays_edits;
     knurl_wall_state guard;
     double proxy[3]; /* of the last contact, scene axes */
     double normal[3];
