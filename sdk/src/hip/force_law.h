@@ -103,7 +103,6 @@ static inline void knurl_force_law(const knurl_hip_motion *hip, const knurl_acti
     relative_velocity(hip, c, over);
     knurl_surface_frame(c->surface, c->record, &c->contact, x, y, coordinates);
     const knurl_along velocity = {vec3_dot(over, x), vec3_dot(over, y)};
-    const double outwards = vec3_dot(over, c->contact.normal);
     out->velocity[0] = velocity.x;
     out->velocity[1] = velocity.y;
     if (plays) {
@@ -114,7 +113,7 @@ static inline void knurl_force_law(const knurl_hip_motion *hip, const knurl_acti
         out->cycles[0] = out->cycles[1] = 0.0;
     }
     wall->height = out->grating.height;
-    vec3_scale(knurl_normal_force(wall, c->share, outwards), c->normal, out->force);
+    vec3_scale(knurl_normal_force(wall, c->share, vec3_dot(over, c->contact.normal)), c->normal, out->force);
     if (c->record->material.friction > 0.0) {
         double tangential[3], force[3];
         knurl_friction_force(c, wall, tangential);
