@@ -33,9 +33,9 @@ static inline void knurl_grating_run(const knurl_method *method, const knurl_gra
     output->temporal_frequency = frequency;
     output->event = KNURL_NO_EVENT;
     output->above_nyquist = frequency > 0.5 * grating->update_rate_hz;
-    output->height = state->playing ? knurl_grating_play(state, output)
-                                    : method->height(grating, state, input->position, v, input->period,
-                                                     input->has_position, output);
+    output->height =
+        state->playing ? knurl_grating_play(state, output)
+                       : method->height(grating, state, input->position, v, input->period, input->has_position, output);
     knurl_grating_note_turn(state, output);
 }
 

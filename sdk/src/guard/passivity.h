@@ -11,23 +11,23 @@
 
 /* A HIP's swings in walls that could be unstable. Scene units. */
 typedef struct knurl_passivity {
-    double safe;       /* N/m: stiffness up to which a wall is stable and not watched; infinite: protection off */
-    double unit;       /* m, scene: a device's metre */
-    double depth;      /* m: of the deepest wall in this tick, after the entry ramp; 0 outside */
-    double extreme;    /* m: depth at the last reversal */
-    double farthest;   /* m: farthest depth since, in the present direction */
-    double largest;    /* m: largest swing of the row, decaying */
-    double squares;    /* m^2: of the row's swings */
-    double moved;      /* m: total change of H since the last reversal */
+    double safe;        /* N/m: stiffness up to which a wall is stable and not watched; infinite: protection off */
+    double unit;        /* m, scene: a device's metre */
+    double depth;       /* m: of the deepest wall in this tick, after the entry ramp; 0 outside */
+    double extreme;     /* m: depth at the last reversal */
+    double farthest;    /* m: farthest depth since, in the present direction */
+    double largest;     /* m: largest swing of the row, decaying */
+    double squares;     /* m^2: of the row's swings */
+    double moved;       /* m: total change of H since the last reversal */
     double reversal;    /* m: KNURL_PASSIVITY_REVERSAL, scene */
     uint32_t crossings; /* zero crossings of H since the last reversal */
     uint32_t crossed;   /* and in the half swing before */
-    int32_t row;       /* swings in the row, each as large as those before it */
-    int32_t longest;   /* ticks: a longer swing in and out may be a hand's motion */
-    int32_t ticks;     /* since the last reversal, at most one more than `longest` */
-    int32_t before;    /* and in the half swing before */
-    int32_t outwards;  /* 1: heading out */
-    int32_t busy;      /* 1: there is a depth to follow, or an alarm */
+    int32_t row;        /* swings in the row, each as large as those before it */
+    int32_t longest;    /* ticks: a longer swing in and out may be a hand's motion */
+    int32_t ticks;      /* since the last reversal, at most one more than `longest` */
+    int32_t before;     /* and in the half swing before */
+    int32_t outwards;   /* 1: heading out */
+    int32_t busy;       /* 1: there is a depth to follow, or an alarm */
     int32_t alarmed;
     double soft;      /* 0 to 1: progress towards the passive stiffness */
     double softening; /* of the remaining change, per tick */

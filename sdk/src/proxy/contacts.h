@@ -24,13 +24,14 @@ typedef struct knurl_active_contact {
     const knurl_pose *pose;       /* of the shape's frame, now */
     knurl_contact contact;        /* shape's frame */
     double share, friction_share; /* of its ridges and damping, and of its friction; 1 if it is alone */
-    uint64_t steady; /* not 0: `record` is that of so many edits, stands still and held the HIP alone in the last tick */
+    uint64_t
+        steady;     /* not 0: `record` is that of so many edits, stands still and held the HIP alone in the last tick */
     int32_t slides; /* 1: it is steady, and a rectangle or the cached facet held the HIP: see knurl_contacts_slide() */
     double seam;    /* m: the shape's, while it slides */
-    int32_t begins;               /* 1: not in contact at the last tick */
-    int32_t is_unfelt;            /* 1: in contact with a smooth mesh's triangles, but not with its surface */
-    const double *normal;         /* as felt, scene: the candidate's, or that of `felt` */
-    struct {                      /* on a smooth mesh, whose triangles hold the proxy */
+    int32_t begins; /* 1: not in contact at the last tick */
+    int32_t is_unfelt;    /* 1: in contact with a smooth mesh's triangles, but not with its surface */
+    const double *normal; /* as felt, scene: the candidate's, or that of `felt` */
+    struct {              /* on a smooth mesh, whose triangles hold the proxy */
         knurl_felt_parts parts;
         double normal[3];  /* scene */
         knurl_facet facet; /* the plane that touches the surface there */
@@ -61,7 +62,7 @@ typedef struct knurl_contacts_now {
 
 /* The proxy at the last tick. Scene axes. */
 typedef struct knurl_proxy {
-    double at[3]; /* outside of every surface; the HIP if nothing holds it. Not kept up while a contact slides */
+    double at[3];        /* outside of every surface; the HIP if nothing holds it. Not kept up while a contact slides */
     double normal[3];    /* unit */
     double depth;        /* m; 0 if no surface held the HIP */
     double ramped_depth; /* m: as limited by the entry ramp; a contact that begins continues from it */
