@@ -58,14 +58,14 @@ static inline int place_alone(knurl_contacts *c, const knurl_broad_index *index,
     return 1;
 }
 
-/* Tests only `candidate`, which is in contact, if nothing else is near the HIP. Returns 0, with the contact unchanged,
- * if joint contact has to decide; the cache then holds the query's result. margin: as for is_within_view(). */
+/* Tests only `candidate`, the last tick's only contact, if nothing else is near the HIP. Returns 0, with the contact
+ * unchanged, if joint contact has to decide; the cache then holds the query's result. margin: as for is_within_view().
+ */
 static inline int hold_alone(knurl_contacts *c, const knurl_broad_index *index, knurl_candidate *candidate,
                              const double position[3], const double *margin) {
     knurl_active_contact *a = &c->now.list[0];
     knurl_contact_state *state = &candidate->contact;
     double hip[3], proxy[3], normal[3];
-    a->candidate = candidate;
     if (!place_alone(c, index, a)) {
         return 0;
     }
@@ -143,20 +143,18 @@ static int comes_near(const knurl_contacts *c, const knurl_broad_index *index, k
 /* The candidate in contact, if it is the only one and the path comes near no other; else null. */
 static knurl_candidate *find_alone(knurl_contacts *c, const knurl_broad_index *index, const knurl_hip_path *path,
                                    double margin) {
-    knurl_candidate *alone = NULL;
+    knurl_candidate *alone = c->now.list[0].candidate;
     if (c->now.count != 1 || c->proxy.holders > 1 || path->is_first || path->test_all ||
         knurl_contacts_have_slipped(c)) {
         return NULL;
     }
     for (uint32_t i = 0; i < c->candidates.count; i++) {
         knurl_candidate *candidate = knurl_candidates_at(&c->candidates, i);
-        if (candidate->in_contact && !alone) {
-            alone = candidate;
-        } else if (candidate->in_contact || comes_near(c, index, candidate, path, margin)) {
+        if (candidate != alone && (candidate->in_contact || comes_near(c, index, candidate, path, margin))) {
             return NULL;
         }
     }
-    return alone;
+    return alone->in_contact ? alone : NULL;
 }
 
 /* m: distance within which the HIP may meet other surfaces: its depth or, after a slip off a rim, that to the rim. */

@@ -24,12 +24,11 @@ typedef struct knurl_active_contact {
     const knurl_pose *pose;       /* of the shape's frame, now */
     knurl_contact contact;        /* shape's frame */
     double share, friction_share; /* of its ridges and damping, and of its friction; 1 if it is alone */
-    uint64_t
-        steady;     /* not 0: `record` is that of so many edits, stands still and held the HIP alone in the last tick */
-    int32_t slides; /* 1: it is steady, and a rectangle or the cached facet held the HIP: see knurl_contacts_slide() */
-    double seam;    /* m: the shape's, while it slides */
-    int32_t begins; /* 1: not in contact at the last tick */
-    int32_t is_unfelt;    /* 1: in contact with a smooth mesh's triangles, but not with its surface */
+    uint64_t steady;   /* `edits` of `record`, if this was the only contact in the last tick and stands still; else 0 */
+    int32_t slides;    /* 1: steady, and its rectangle or cached facet held the HIP: see knurl_contacts_slide() */
+    int32_t begins;    /* 1: not in contact at the last tick */
+    double seam;       /* m: the shape's, while it slides */
+    int32_t is_unfelt; /* 1: in contact with a smooth mesh's triangles, but not with its surface */
     const double *normal; /* as felt, scene: the candidate's, or that of `felt` */
     struct {              /* on a smooth mesh, whose triangles hold the proxy */
         knurl_felt_parts parts;
