@@ -16,7 +16,8 @@ import subprocess
 import sys
 
 TOOL, BUILD, CACHE = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
-OPTIONS = ["--quiet", "--removed-arg=-fno-keep-inline-dllexport"] # which is GCC's alone
+GCC_ALONE = ("-fno-keep-inline-dllexport", "-fira-region=one", "-fno-tree-pre", "-frename-registers")
+OPTIONS = ["--quiet", *(f"--removed-arg={flag}" for flag in GCC_ALONE)]
 
 
 @functools.lru_cache(maxsize=None)

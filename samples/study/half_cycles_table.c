@@ -5,11 +5,11 @@
 
 #include <string.h>
 
-#define SPEEDS  3
+#define SPEEDS  4
 #define PERIODS 3
 
 static const double periods[PERIODS] = {0.001, 0.002, 0.004};
-static const double speeds[SPEEDS] = {0.049, 0.099, 0.247}; /* the speeds at which CHAI3D was measured */
+static const double speeds[SPEEDS] = {0.049, 0.099, 0.247, 0.447}; /* the speeds at which CHAI3D was measured */
 
 static const struct {
     const char *name;
@@ -92,7 +92,7 @@ static void print_table(const table *t) {
     for (size_t v = 0; v < SPEEDS; v++) {
         printf(" %g mm/s |", 1e3 * speeds[v]);
     }
-    printf("\n|---|---|---|---|\n");
+    printf("\n|---|---|---|---|---|\n");
     for (size_t i = 0; i < SURFACES; i++) {
         for (size_t p = 0; p < PERIODS; p++) {
             say(stdout, "| %s, %g mm |", surfaces[i].name, 1e3 * periods[p]);
