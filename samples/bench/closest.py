@@ -3,7 +3,7 @@
 
 usage: closest.py [--library build/release/sdk/libknurl.a] [--triangles N ...] [--points N] [--rounds N] [--json]
 Needs numpy, embreex and fcpw from PyPI, and a C compiler; if they are missing, it says so and exits with 77. The least of the
-rounds counts. `alone`: each query by itself, up to 1 m. `followed`: it begins at the last answer, Embree and FCPW with
+rounds counts; on a busy machine take many short ones (--points 500 --rounds 100), so that some are not interrupted. `alone`: each query by itself, up to 1 m. `followed`: it begins at the last answer, Embree and FCPW with
 the distance to that as their radius. If they disagree by more than 1e-6 m (float32's), it says so.
 
 SPDX-License-Identifier: MIT

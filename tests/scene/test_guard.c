@@ -355,6 +355,7 @@ static knurl_passivity swinging(void) {
     memset(&p, 0, sizeof p);
     p.longest = 120;
     p.unit = 1.0;
+    p.reversal = KNURL_PASSIVITY_REVERSAL;
     p.farthest = 2e-3;
     return p;
 }
@@ -381,6 +382,8 @@ TEST(a_row_is_over_when_nothing_turns_for_the_longest_swing) {
     p.busy = 1;
     p.depth = 2e-3; /* as far as ever */
     knurl_passivity_follow(&p);
-    assert_true(p.row == 0 && p.crossings == 0 && p.ticks == 120 && p.busy == 1);
+    assert_true(p.busy == 1 && !knurl_passivity_counts(&p));
+    knurl_passivity_follow(&p); /* from a depth of 0: the swing ends */
+    assert_true(p.row == 0 && p.crossings == 0 && !p.alarmed);
     CHECK_SAME(p.squares + p.largest + p.moved, 0.0);
 }
