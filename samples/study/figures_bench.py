@@ -102,8 +102,8 @@ def draw_bench(data, folder):
         paced(ax, cases, key)
     axes[1].tick_params(labelleft=False)
     shown = [feel for feel in FEELS if "mesh_1k" + feel[0] in cases]
-    handles = [Line2D([], [], color=colour, marker=mark, ms=5, mew=0, lw=1.4, label=f"{label}, warm" + ("" if suffix else " (numbers)"))
-               for suffix, label, colour, mark in shown]
+    handles = [Line2D([], [], color=colour, marker=mark, ms=5, mew=0, lw=1.4,
+                      label=f"{label}, warm" + ("" if suffix else " (numbers)")) for suffix, label, colour, mark in shown]
     handles += [Line2D([], [], ls="", marker="o", mfc="white", mec=ACCENT, mew=1.4, ms=6.5,
                        label="with grating, in a loop at 1 kHz")]
     figure.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.06, 0.055), ncol=len(handles), frameon=False,
