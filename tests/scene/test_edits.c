@@ -93,6 +93,21 @@ TEST(ids_stay_stale_for_ever) {
     assert_int_equal(knurl_scene_get_surface_count(scene), 0);
 }
 
+/* A HIP stays near a place whose surface goes and another comes, both never edited: it feels the new one's ridges. */
+TEST(another_surface_in_the_same_place_has_its_own_ridges) {
+    surface_parts parts = surface_plane();
+    set_grating(&parts, KNURL_METHOD_S1, 100.0, 0.0, 1e-4);
+    SCOPED_SCENE *scene = scene_of(&parts);
+    knurl_surface_id id = knurl_scene_get_surface(scene, 0);
+    (void)tick_at(scene, 0.0, 0.0, 0.001);
+    CHECK_CLOSE(tick_at(scene, 0.0, 0.0, -0.001).height, 1e-4, 1e-15);
+    assert_int_equal(knurl_scene_remove_surface(scene, id), KNURL_OK);
+    set_grating(&parts, KNURL_METHOD_S1, 50.0, 0.0, 2e-4);
+    assert_int_equal(knurl_scene_add_surface(scene, surface_ready(&parts), &id), KNURL_OK);
+    (void)tick_at(scene, 0.0, 0.0, 0.001);
+    CHECK_CLOSE(tick_at(scene, 0.004, 0.0, -0.001).height, 2e-4, 1e-15); /* in a trough of the first one's */
+}
+
 TEST(committed_scene_is_full_at_its_capacity_and_has_room_after_a_removal) {
     surface_parts parts = surface_plane();
     knurl_scene_desc desc;

@@ -81,4 +81,5 @@ void knurl_candidate_note_change(knurl_candidate *candidate, const knurl_surface
     candidate->generation = surface ? surface->generation : candidate->generation;
     candidate->has_previous = 0;
     candidate->settled = NULL;
+    candidate->plays_edits = 0; /* another surface may have been edited as often */
 }
