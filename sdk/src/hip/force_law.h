@@ -51,22 +51,6 @@ static inline void add_between(const double between[3], const knurl_active_conta
     }
 }
 
-/* The grating that a contact plays. What does not change from tick to tick is kept until the next edit. */
-static inline const knurl_grating *find_grating(const knurl_hip_motion *hip, const knurl_active_contact *c,
-                                                double amplitude) {
-    knurl_candidate *candidate = c->candidate;
-    const knurl_material_desc *m = &c->record->material;
-    if (KNURL_UNLIKELY(candidate->plays_edits != c->record->edits)) {
-        candidate->plays_edits = c->record->edits;
-        candidate->plays = (knurl_grating){.method = m->method,
-                                           .spatial_frequency = {m->spatial_frequency[0], m->spatial_frequency[1]},
-                                           .update_rate_hz = hip->facts->rate,
-                                           .resolution = hip->facts->resolution};
-    }
-    candidate->plays.amplitude = amplitude;
-    return &candidate->plays;
-}
-
 /* Plays the grating for one tick. over: velocity in the shape's frame. coordinates: from knurl_surface_frame().
  * Functions that are not inlined get copies, so that the values themselves can stay in registers. */
 static inline void play_grating(const knurl_hip_motion *hip, const knurl_active_contact *c, const double over[3],
@@ -91,7 +75,12 @@ static inline void play_grating(const knurl_hip_motion *hip, const knurl_active_
     if (KNURL_UNLIKELY(hip->even->on)) {
         amplitude *= knurl_even_gain(hip->even, knurl_grating_highest(m->spatial_frequency, at.velocity));
     }
-    knurl_grating_run(c->record->method, find_grating(hip, c, amplitude), &c->candidate->grating, &at, &played);
+    knurl_candidate *candidate = c->candidate;
+    if (KNURL_UNLIKELY(candidate->plays_edits != c->record->edits)) {
+        knurl_candidate_set_grating(candidate, c->record, hip->facts);
+    }
+    candidate->plays.amplitude = amplitude;
+    knurl_grating_run(c->record->method, &candidate->plays, &candidate->grating, &at, &played);
     out->grating = played;
 }
 

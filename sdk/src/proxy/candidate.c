@@ -68,6 +68,15 @@ int knurl_candidate_is_swept_near(knurl_candidate *candidate, const knurl_surfac
     return near;
 }
 
+void knurl_candidate_set_grating(knurl_candidate *candidate, const knurl_record *record, const knurl_hip_facts *facts) {
+    const knurl_material_desc *m = &record->material;
+    candidate->plays_edits = record->edits;
+    candidate->plays = (knurl_grating){.method = m->method,
+                                       .spatial_frequency = {m->spatial_frequency[0], m->spatial_frequency[1]},
+                                       .update_rate_hz = facts->rate,
+                                       .resolution = facts->resolution};
+}
+
 void knurl_candidate_end_contact(knurl_candidate *candidate) {
     candidate->in_contact = 0;
     memset(&candidate->contact, 0, sizeof candidate->contact);

@@ -6,6 +6,7 @@
 #include "base/vec3.h"
 #include "contact/facet.h"
 #include "contact/projection.h"
+#include "guard/hip_facts.h"
 #include "guard/wall.h"
 #include "proxy/hip_clock.h"
 #include "surface/pose.h"
@@ -28,7 +29,7 @@ typedef struct knurl_candidate {
     uint64_t settled_tick;
     knurl_contact_state contact;
     knurl_grating_state grating;
-    knurl_grating plays; /* the grating of the record with `plays_edits`, but for its amplitude: see force_law.h */
+    knurl_grating plays; /* the grating of the record with `plays_edits`, but for its amplitude */
     uint64_t plays_edits;
     knurl_wall_state guard;
     double proxy[3]; /* of the last contact, scene axes */
@@ -99,6 +100,10 @@ int knurl_candidate_is_near(const knurl_candidate *candidate, const knurl_hip_pa
 int knurl_candidate_is_swept_near(knurl_candidate *candidate, const knurl_surface_data *surface,
                                   const knurl_hip_clock *clock, const knurl_hip_path *path,
                                   double margin) KNURL_NONBLOCKING;
+
+/* After an edit: prepares the record's grating, but for its amplitude. */
+void knurl_candidate_set_grating(knurl_candidate *candidate, const knurl_record *record,
+                                 const knurl_hip_facts *facts) KNURL_NONBLOCKING;
 
 /* Ends its contact, if there is one. */
 void knurl_candidate_end_contact(knurl_candidate *candidate) KNURL_NONBLOCKING;
