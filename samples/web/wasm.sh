@@ -42,8 +42,11 @@ compiled=("${sources[@]//\//_}")
 compiled=("${compiled[@]/%/.o}")
 printf '%s\n' "${compiled[@]}" >"$objects/linked.new"
 cmp -s "$objects/linked.new" "$objects/linked" || mv "$objects/linked.new" "$objects/linked"
-[ -n "$(find "$objects" "$0" -newer "${objects%/objects}/knurl.wasm" \( -name '*.o' -o -name linked -o -name '*.sh' \))" ] || exit 0
+made=${objects%/objects}/knurl.wasm
+if [ -e "$made" ] && [ -z "$(find "$objects" "$0" -newer "$made" \( -name '*.o' -o -name linked -o -name '*.sh' \))" ]; then
+    exit 0
+fi
 echo 'linking'
-em++ -O2 -fexceptions "${compiled[@]/#/$objects/}" -o "${objects%/objects}/knurl.mjs" -sMODULARIZE -sEXPORT_ES6 -sENVIRONMENT=web,worker \
+em++ -O2 -fexceptions "${compiled[@]/#/$objects/}" -o "${made%.wasm}.mjs" -sMODULARIZE -sEXPORT_ES6 -sENVIRONMENT=web,worker \
     -sALLOW_MEMORY_GROWTH -sMAXIMUM_MEMORY=1GB -sEXPORTED_FUNCTIONS=_malloc,_free \
     -sEXPORTED_RUNTIME_METHODS=UTF8ToString

@@ -5,8 +5,7 @@
 
 #include "base/atomic.h"
 #include "base/base.h"
-#include "proxy/felt_parts.h"
-#include "proxy/obstacles.h"
+#include "proxy/active_contact.h"
 
 #include <knurl/hip.h>
 
@@ -16,32 +15,12 @@
 /* s that a HIP that has not ticked for a while may be behind another before it takes over that one's time. */
 #define KNURL_MAX_LAG 0.05
 
-/* One surface that the HIP is in contact with in this tick. */
-typedef struct knurl_active_contact {
-    const knurl_surface_data *surface;
-    const knurl_record *record;
-    knurl_candidate *candidate;   /* state kept from tick to tick, with the contact's proxy and normal */
-    const knurl_pose *pose;       /* of the shape's frame, now */
-    knurl_contact contact;        /* shape's frame */
-    double share, friction_share; /* of its ridges and damping, and of its friction; 1 if it is alone */
-    uint64_t steady; /* `edits` of `record`, if this was the only contact in the last tick and stands still; else 0 */
-    int32_t slides;  /* 1: steady, and its rectangle or cached facet held the HIP: see knurl_contacts_slide() */
-    double seam;     /* m: the shape's, while it slides */
-    int32_t begins,
-        is_unfelt;        /* 1: not in contact at the last tick; 1: on a smooth mesh's triangles, off its surface */
-    const double *normal; /* as felt, scene: the candidate's, or that of `felt` */
-    struct {              /* on a smooth mesh, whose triangles hold the proxy */
-        knurl_felt_parts parts;
-        double normal[3];  /* scene */
-        knurl_facet facet; /* the plane that touches the surface there */
-    } felt;
-} knurl_active_contact;
-
 /* A HIP that was pressed into a surface and has come off its rim. */
 typedef struct knurl_slip {
-    double time;                /* s: of the slip; negative: no slip, or the HIP is held again */
-    double proxy[3], normal[3]; /* last on the surface, scene */
-    double ramped_depth;        /* m: depth there, as limited by the entry ramp */
+    double time;     /* s: of the slip; negative: no slip, or the HIP is held again */
+    double proxy[3]; /* last proxy on the surface, scene */
+    double normal[3];
+    double ramped_depth; /* m: depth there, as limited by the entry ramp */
 } knurl_slip;
 
 /* The result of querying one shape. */
@@ -60,11 +39,12 @@ typedef struct knurl_contacts_now {
 
 /* The proxy at the last tick. Scene axes. */
 typedef struct knurl_proxy {
-    double at[3];     /* outside of every surface; the HIP if nothing holds it. Not kept up while a contact slides */
-    double normal[3]; /* unit */
-    double depth, ramped_depth; /* m; 0 if nothing held the HIP; as the entry ramp limits it, for contacts that begin */
-    double whole;               /* m: depth that its holders share; 0: each has its own */
-    uint32_t holders;           /* surfaces that held the HIP */
+    double at[3];        /* outside of every surface; the HIP if nothing holds it. Not kept up while a contact slides */
+    double normal[3];    /* unit */
+    double depth;        /* m; 0 if no surface held the HIP */
+    double ramped_depth; /* m: as limited by the entry ramp; a contact that begins continues from it */
+    double whole;        /* m: depth that its holders share; 0: each has its own */
+    uint32_t holders;    /* surfaces that held the HIP */
 } knurl_proxy;
 
 typedef struct knurl_visit_budget {
@@ -82,8 +62,9 @@ typedef struct knurl_query_cache {
 /* Of one HIP, from tick to tick. */
 typedef struct knurl_contacts {
     knurl_hip_clock clock;
-    double previous[3];             /* HIP position at the last tick, scene */
-    int32_t has_previous, test_all; /* test_all: 1: test every surface in every tick (KNURL_FULL_SEARCH) */
+    double previous[3]; /* HIP position at the last tick, scene */
+    int32_t has_previous;
+    int32_t test_all; /* 1: test every surface in every tick (KNURL_FULL_SEARCH) */
     knurl_proxy proxy;
     knurl_slip slip;
     knurl_contacts_now now;
