@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: MIT */
 #include "base/rule.h"
 
+#include "base/finite.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 
