@@ -57,16 +57,21 @@ static void open_place(place *p) {
     p->is_ready = 1;
 }
 
-static void *run_deed(void *user) {
-    void **both = user;
-    ((void (*)(place *))(uintptr_t)both[0])(both[1]);
+typedef struct job {
+    deed what;
+    place *where;
+} job;
+
+static void *run(void *user) {
+    const job *given = user;
+    given->what(given->where);
     return NULL;
 }
 
 static void elsewhere(place *p, deed what) {
     pthread_t thread;
-    void *both[2] = {(void *)(uintptr_t)what, p};
-    assert_int_equal(pthread_create(&thread, NULL, run_deed, both), 0);
+    job given = {what, p};
+    assert_int_equal(pthread_create(&thread, NULL, run, &given), 0);
     assert_int_equal(pthread_join(thread, NULL), 0);
 }
 
@@ -88,7 +93,7 @@ static void destroy(place *p) {
     knurl_scene_destroy(p->scene);
 }
 static void collect(place *p) {
-    (void)knurl_scene_collect(p->scene);
+    knurl_scene_collect(p->scene);
 }
 static void configure(place *p) {
     configure_plainly(p->scene, 0);

@@ -1,6 +1,7 @@
 // The pictures of a material, as the bytes of their files. SPDX-License-Identifier: MIT
 #include <filesystem>
 #include <fstream>
+#include <string_view>
 
 #include "gltf/builder.hpp"
 
@@ -15,8 +16,8 @@ struct Picture {
     double scale;
 };
 
-const std::string png = "\x89PNG, not decoded";
-const std::string jpeg = "\xFF\xD8, not decoded either";
+constexpr std::string_view png = "\x89PNG, not decoded";
+constexpr std::string_view jpeg = "\xFF\xD8, not decoded either";
 
 knurl_result read(const std::string &file, const char *array, uint32_t index, std::vector<Picture> &pictures,
                   const char *folder = nullptr) {
@@ -82,8 +83,8 @@ TEST(pictures_come_in_the_order_of_their_use) {
     file.materials =
         R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":1}},"occlusionTexture":{"index":0,"strength":0.5},)" +
         file.materials.substr(1);
-    file.more =
-        file.more.substr(0, file.more.size() - 1) + R"(,{"uri":"data:image/jpeg;base64,)" + base64(jpeg) + R"("}])";
+    file.more = file.more.substr(0, file.more.size() - 1) + R"(,{"uri":"data:image/jpeg;base64,)" +
+                base64(std::string(jpeg)) + R"("}])";
     file.more.replace(file.more.find(R"([{"source":0}])"), 14, R"([{"source":0},{"source":1}])");
     const std::vector<Picture> found = pictures_of(file.glb());
     assert_int_equal(found.size(), 3);

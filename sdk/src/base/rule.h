@@ -14,8 +14,6 @@ enum {
     KNURL_RULE_ONE         /* one at a time for each object; may be within a tick */
 };
 
-#ifdef KNURL_CHECK_THREADS
-
 /* A call that runs, on its caller's stack. */
 typedef struct knurl_call {
     struct knurl_call *next;
@@ -29,6 +27,8 @@ typedef struct knurl_call {
 
 void knurl_rule_enter(knurl_call *call, int rule, const void *object, uint32_t hip, const char *function);
 void knurl_rule_leave(knurl_call *call);
+
+#ifdef KNURL_CHECK_THREADS
 
 /* The first line of a public function. object: the handle whose use the rule limits, or null. */
 #define KNURL_RULE_OF_HIP(rule, object, hip)                                                                           \
