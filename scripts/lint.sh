@@ -35,14 +35,19 @@ changed_sources() {
 }
 
 check_sources() {
-    local windows='(_windows\.c|^tests/windows/.*)$' units
+    local windows='(_windows\.c|^tests/windows/.*)$' debug='^(sdk/src/base/rule|tests/base/test_rules)\.c$' units
     /usr/bin/python3 -B tests/tool/printing.py
     build/lint-venv/bin/clang-format --dry-run --Werror "$@"
     # Not part of this build: fuzz targets, the selector of mutants, code for browsers, code that is built with an
     # installed Knurl, other compilers or by a script, and the stand-in for libwebsockets.
     local elsewhere='^tests/(fuzz|mutants|package/(consumer|host|versions))/|^bindings/python/native/|^tests/abi/deprecated\.c$|^samples/bench/closest_peers\.c$|^samples/(web|languages)/|^tests/fidelity/hashes\.c$|/(view|from_texture)_none\.c$'
-    units=$(printf '%s\n' "$@" | grep -E '\.(c|cpp)$' | grep -vE "$windows|$elsewhere" || true)
+    units=$(printf '%s\n' "$@" | grep -E '\.(c|cpp)$' | grep -vE "$windows|$debug|$elsewhere" || true)
     [ -z "$units" ] || tidy release <<<"$units"
+    units=$(printf '%s\n' "$@" | grep -E "$debug" || true)
+    if [ -n "$units" ]; then
+        configure asan-ubsan
+        tidy asan-ubsan <<<"$units"
+    fi
     units=$(printf '%s\n' "$@" | grep -E '\.(c|cpp)$' | grep -E "$windows" || true)
     if [ -z "$units" ]; then
         return 0
