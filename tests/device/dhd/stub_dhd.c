@@ -98,6 +98,13 @@ static int end(int error) {
     return error ? -1 : 0;
 }
 
+static int setting(int which) {
+    lock();
+    const int value = stub.settings[which];
+    (void)end(0);
+    return value;
+}
+
 /* The present error of a call; 0: no error. */
 static int trouble(void) {
     return stub.fault == DOUBLE_UNPLUG ? DHD_ERROR_COM : 0;
@@ -182,7 +189,8 @@ int DHD_CALL dhdEnableForce(unsigned char on, char id) {
 
 int DHD_CALL dhdGetSystemType(char id) {
     (void)id;
-    return stub.settings[STUB_DHD_TYPE] ? stub.settings[STUB_DHD_TYPE] : DHD_OMEGA3;
+    const int type = setting(STUB_DHD_TYPE);
+    return type ? type : DHD_OMEGA3;
 }
 
 const char *DHD_CALL dhdGetSystemName(char id) {
@@ -253,13 +261,14 @@ int DHD_CALL dhdSetForceAndTorqueAndGripperForce(double fx, double fy, double fz
 
 int DHD_CALL dhdGetGripperAngleRad(double *angle, char id) {
     (void)id;
-    *angle = stub.settings[STUB_DHD_LEFT] ? -0.2 : 0.2;
+    *angle = setting(STUB_DHD_LEFT) ? -0.2 : 0.2;
     return 0;
 }
 
 /* As many as its type has; the others stay as they are. */
 int DHD_CALL dhdGetJointAngles(double *angles, char id) {
-    for (int i = 0; i < (dhdGetSystemType(id) == DHD_SIGMA7 ? 7 : 3); i++) {
+    const int count = dhdGetSystemType(id) == DHD_SIGMA7 ? 7 : 3;
+    for (int i = 0; i < count; i++) {
         angles[i] = 0.1 * (i + 1);
     }
     return 0;
@@ -267,13 +276,14 @@ int DHD_CALL dhdGetJointAngles(double *angles, char id) {
 
 unsigned char DHD_CALL dhdIsLeftHanded(char id) {
     (void)id;
-    return stub.settings[STUB_DHD_LEFT] != 0;
+    return setting(STUB_DHD_LEFT) != 0;
 }
 
 int DHD_CALL dhdSetGravityCompensation(int on, char id) {
     (void)id;
+    lock();
     stub.torque.gravity = on;
-    return 0;
+    return end(0);
 }
 
 void stub_dhd_tell_torque(stub_dhd_torque *told) {
