@@ -22,16 +22,23 @@ namespace Knurl.Tests
         };
 
         readonly AssetImportContext context = new AssetImportContext();
+        UserProperties importer;
 
         [SetUp]
         public void SetUp()
         {
             context.Added.Clear();
+            importer = new UserProperties { assetPath = "Assets/grip.fbx", context = context };
+        }
+
+        [TearDown]
+        public void TearDown()
+        {
+            ImportedFile.End();
         }
 
         void Send(GameObject owner, string[] names, params object[] values)
         {
-            var importer = new UserProperties { assetPath = "Assets/grip.fbx", context = context };
             typeof(UserProperties).GetMethod("OnPostprocessGameObjectWithUserProperties",
                 BindingFlags.Instance | BindingFlags.NonPublic).Invoke(importer, new object[] { owner, names, values });
         }
@@ -58,6 +65,16 @@ namespace Knurl.Tests
             Assert.AreEqual(0.25f, surface.Grating.Friction);
             Assert.AreEqual(SurfaceSmoothness.Off, surface.Smooth);
             Assert.AreSame(surface.Grating, context.Added.Values.Single());
+        }
+
+        [Test]
+        public void Two_objects_of_one_name_have_two_gratings()
+        {
+            foreach (int frequency in new[] { 1000, 500 })
+            {
+                Send(Grip(true), Names.Take(3).ToArray(), frequency, 0.0002, 400);
+            }
+            Assert.AreEqual(new[] { 1000f, 500f }, context.Added.Values.Cast<KnurlGrating>().Select(one => one.SpatialFrequency.x));
         }
 
         [Test]

@@ -148,13 +148,18 @@ namespace Knurl.Editing
             if (AssetDatabase.IsValidFolder(folder))
             {
                 string[] all = AssetDatabase.FindAssets("", new[] { folder }).Select(AssetDatabase.GUIDToAssetPath).ToArray();
-                string[] own = all.Where(path => AssetDatabase.GetLabels(AssetDatabase.LoadMainAssetAtPath(path)).Contains(Label))
-                    .ToArray();
+                string[] own = all.Where(IsOwn).ToArray();
                 foreach (string path in own.Length == all.Length ? new[] { folder } : own)
                 {
                     AssetDatabase.MoveAssetToTrash(path);
                 }
             }
+        }
+
+        static bool IsOwn(string path)
+        {
+            Object asset = AssetDatabase.LoadMainAssetAtPath(path); // null if it is damaged
+            return asset != null && AssetDatabase.GetLabels(asset).Contains(Label);
         }
 
         /// <summary>Moves the gratings along with a moved or renamed file; references to them stay valid.</summary>

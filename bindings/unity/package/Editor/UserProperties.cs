@@ -15,15 +15,25 @@ namespace Knurl.Editing
     {
         const string Prefix = "knurl_";
         const string AxisKey = Prefix + "axis"; // in axes that the exporter and the importer may have turned
+        bool hasBegun; // the file, which all calls of one instance are for
+
+        /// <summary>Raise it when files are to be imported again, because an import has other results.</summary>
+        public override uint GetVersion()
+        {
+            return 1;
+        }
 
         void OnPostprocessGameObjectWithUserProperties(GameObject owner, string[] names, object[] values)
         {
             string tag = TagOf(names, values);
             if (tag != null)
             {
-                ImportedFile.Begin(assetPath, null, context.AddObjectToAsset);
+                if (!hasBegun) // TagImporter ends it
+                {
+                    ImportedFile.Begin(assetPath, null, context.AddObjectToAsset);
+                    hasBegun = true;
+                }
                 ImportedFile.Attach(owner, tag, null, null, false);
-                ImportedFile.End();
             }
         }
 
