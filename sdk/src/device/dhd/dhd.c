@@ -49,8 +49,8 @@ typedef struct dhd {
     size_t model; /* index into models[] */
     char name[64];
     double opens;          /* 1, or -1: the sign of angles and forces that open the gripper */
-    uint32_t sets_gravity; /* 1: its compensation is to be... */
-    uint32_t gravity;      /* on (1) or off */
+    uint32_t sets_gravity; /* 1: switch its gravity compensation... */
+    uint32_t gravity;      /* ...on (1) or off (0) */
     uint32_t until_status; /* exchanges; of the I/O thread */
 } dhd;
 
@@ -140,7 +140,7 @@ static void tell_orientation(dhd *d, double q[4]) {
     quaternion_from_axes(columns[1], columns[2], columns[0], q);
 }
 
-/* The gripper's angle, and the joints'; none of those that the library refuses. */
+/* The gripper's angle, and the joints'; both stay 0 if the library refuses them. */
 static void tell_angles(dhd *d, knurl_device_sample *sample) {
     double angles[DHD_ANGLES] = {0.0};
     if (d->base.max_grip > 0.0 && api.get_grip(&sample->grip, d->id) >= 0) {

@@ -1,5 +1,5 @@
-/* WebSockets on Windows with its WinHTTP, which calls back on threads of its own; loaded at run time, because Windows 7
- * has no WebSockets. SPDX-License-Identifier: MIT */
+/* WebSockets on Windows with its WinHTTP, which calls back on threads of its own; loaded only if an Inverse3 is opened.
+ * SPDX-License-Identifier: MIT */
 #include "device/inverse3/channel.h"
 
 #if defined(_WIN32) && defined(KNURL_HAVE_INVERSE3)
@@ -36,7 +36,7 @@ typedef struct websocket {
     /* atomics */
     uint32_t is_open, is_gone, is_sending;
     uint32_t count;    /* messages since the last call */
-    uint32_t to_close; /* handles whose end on_event() has yet to hear */
+    uint32_t to_close; /* handles that WinHTTP has not reported closed yet */
     uint32_t last_error;
 } websocket;
 
@@ -72,7 +72,7 @@ static void end(websocket *w, DWORD error) {
 }
 
 static void receive_more(websocket *w) {
-    HINTERNET handle = knurl_load_acquire(&w->handles[UPGRADED]); /* null: it is being closed */
+    HINTERNET handle = knurl_load_acquire(&w->handles[UPGRADED]); /* null while it is being closed */
     const DWORD error = handle ? lib.WebSocketReceive(handle, w->part, sizeof w->part, NULL, NULL) : NO_ERROR;
     if (error != NO_ERROR) {
         end(w, error);
@@ -280,7 +280,7 @@ const knurl_inverse3_service *knurl_inverse3_websocket(char *why, size_t why_siz
     if (knurl_dynlib_load(&state, &file, 1, functions, sizeof functions / sizeof *functions, reason, sizeof reason)) {
         return &service;
     }
-    (void)snprintf(why, why_size, "WebSockets cannot be used: %s; Windows 8 and later have them", reason);
+    (void)snprintf(why, why_size, "WebSockets cannot be used: %s", reason);
     return NULL;
 }
 

@@ -37,8 +37,8 @@ typedef struct knurl_inverse3_grip {
 
 typedef struct knurl_inverse3_state {
     knurl_inverse3_entry entries[KNURL_INVERSE3_DEVICES];
-    knurl_inverse3_grip
-        grips[KNURL_INVERSE3_DEVICES]; /* wireless, custom, wired; a custom one may be in the list twice */
+    /* wireless, custom, wired; a custom one may be in the list twice */
+    knurl_inverse3_grip grips[KNURL_INVERSE3_DEVICES];
     uint32_t grip_count;
 } knurl_inverse3_state;
 
