@@ -149,11 +149,12 @@ static int take_state(inverse3 *d, const knurl_inverse3_message *message, knurl_
     return knurl_link_take_trouble(&d->link, trouble, cause);
 }
 
-/* Of events that come within one exchange the last one counts. If the service ends, its brake's state is unknown. */
+/* Of events that come within one exchange only the last is read. If no more come, the brake stays as it was told last.
+ */
 static void hear_events(inverse3 *d) {
     knurl_inverse3_message message = {NULL, 0};
     const int came = d->events.self ? d->events.receive(d->events.self, 0, &message) : 0;
-    const int brake = came > 0 ? knurl_inverse3_read_brake(message.text, message.size, d->id) : came < 0 ? 0 : -1;
+    const int brake = came > 0 ? knurl_inverse3_read_brake(message.text, message.size, d->id) : -1;
     d->is_braked = brake >= 0 ? (uint32_t)brake : d->is_braked;
 }
 
