@@ -152,8 +152,12 @@ TEST(a_device_without_a_wrist_or_a_gripper_gets_no_torque) {
     knurl_loop *loop = start(device, 0.02);
     sleep_ms(200);
     const stub_dhd_torque told = ask();
+    double force[3];
+    double others[3];
     CHECK_SAME(told.most_torque, 0.0L);
     CHECK_SAME(told.most_grip, 0.0L);
+    dhd_stub.ask(force, others);
+    CHECK_CLOSE(force[1], 1.0, 1e-12); /* the callbacks were called */
     knurl_loop_destroy(loop);
     dhd_double.close(device);
 }
@@ -175,6 +179,7 @@ TEST(gravity_compensation_is_switched_by_the_uri_and_otherwise_left_alone) {
 
 /* With a steady request a torque is to the force as requested, through every ramp: 0.05 N m and 2 N to 1.25 N. */
 static void follow(knurl_scene *scene) {
+    static const double reached[] = {1.25, 0.0, 1.25, 1.25 / 3.0, 0.0}; /* N */
     ask_for(1.25, 0.0, 0.05, 0.0, 2.0);
     knurl_device *device = open_model(SIGMA7, 0, "dhd");
     knurl_loop *loop = start_scene(device, 0.2, scene);
@@ -197,6 +202,9 @@ static void follow(knurl_scene *scene) {
         CHECK_CLOSE(told.torque[2], force[1] * 0.04, 1e-3 * 0.05 + 0.05 / 200.0); /* an exchange may come in between */
         CHECK_CLOSE(told.grip, force[1] * 1.6, 1e-3 * 2.0 + 2.0 / 200.0);
         assert_int_equal(told.alone, 0);
+        if (k % 30 == 29) { /* each ramp has ended */
+            CHECK_CLOSE(force[1], reached[k / 30], 1e-12);
+        }
     }
     knurl_loop_destroy(loop);
     dhd_double.close(device);
