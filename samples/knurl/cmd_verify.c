@@ -105,7 +105,7 @@ static int report(const verify *v, const wishes *w, out_file files[FILES]) {
         return TOOL_INTERRUPTED + interrupted;
     }
     if (verify_count(v, VERIFY_NOT_MEASURED) == v->finding_count) {
-        return tool_error(TOOL_FAILURE, "verify: nothing was measured; the reports have the reasons");
+        return tool_error(TOOL_FAILURE, "verify: nothing was measured, for the reasons above");
     }
     return verify_count(v, VERIFY_FAIL) > 0 ? TOOL_CHECK : TOOL_OK;
 }
@@ -148,6 +148,9 @@ static int check(const verify *v, const wishes *w, const char *stray) {
         return tool_error(TOOL_USAGE, "verify: unknown step '%.*s'; see 'knurl help verify'",
                           (int)strcspn(unknown, ","), unknown);
     }
+    if (verify_is_empty(v)) {
+        return tool_error(TOOL_USAGE, "verify: --only and --skip leave no step");
+    }
     if (v->simulated && strncmp(w->uri, "fake", 4) != 0) {
         return tool_error(TOOL_USAGE, "verify: --simulate takes a fake device, found --device %s", w->uri);
     }
@@ -155,14 +158,18 @@ static int check(const verify *v, const wishes *w, const char *stray) {
 }
 
 /* The fake device's cable is pulled after every other step's time; it lies still when it is let go. */
-static void simulate(verify *v, wishes *w, char *uri, size_t size, verify_hand *hand) {
-    (void)snprintf(uri, size, "%s%stremor=0&lose_at=150", w->uri,
-                   strchr(w->uri, '?')                 ? "&"
-                   : w->uri[strlen(w->uri) - 1] == ':' ? "?"
-                                                       : ":?");
+static int simulate(verify *v, wishes *w, char *uri, size_t size, verify_hand *hand) {
+    const int length = snprintf(uri, size, "%s%stremor=0&lose_at=150", w->uri,
+                                strchr(w->uri, '?')                 ? "&"
+                                : w->uri[strlen(w->uri) - 1] == ':' ? "?"
+                                                                    : ":?");
+    if (length < 0 || (size_t)length >= size) {
+        return tool_error(TOOL_USAGE, "verify: --device %s: the URI is too long", w->uri);
+    }
     w->opened = hand->uri = uri;
     v->person = &verify_hand_person;
     v->hand = hand;
+    return TOOL_OK;
 }
 
 int cmd_verify(int argc, char **argv) {
@@ -190,7 +197,7 @@ int cmd_verify(int argc, char **argv) {
     v.stream = w.json ? stderr : stdout;
     w.opened = w.uri;
     if (code == TOOL_OK && v.simulated) {
-        simulate(&v, &w, uri, sizeof uri, &hand);
+        code = simulate(&v, &w, uri, sizeof uri, &hand);
     }
     return code == TOOL_OK ? perform(&v, &w) : code;
 }

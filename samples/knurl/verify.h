@@ -98,7 +98,7 @@ struct verify {
     double times[2]; /* s: of the first and the last tick */
     knurl_loop_stats stats;
     int32_t fault;   /* that ended it; 0: no fault */
-    const char *why; /* the last verify_play() did not get to its end; or null */
+    const char *why; /* the last verify_play() ended early; or null */
 
     verify_finding findings[VERIFY_FINDINGS];
     int finding_count;
@@ -116,6 +116,9 @@ extern const verify_step verify_steps[]; /* ended by a null name */
 
 /** The rest of a list of steps' names from the first unknown one on, or null. */
 const char *verify_unknown(const char *names);
+
+/** 1: --only and --skip leave no step. */
+int verify_is_empty(const verify *v);
 
 /** Runs all steps that are wanted. Returns 0, or 1: no memory, or the device has no properties. */
 int verify_run(verify *v);

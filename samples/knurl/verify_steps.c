@@ -41,6 +41,18 @@ static int is_listed(const char *names, const char *name) {
     return names != NULL;
 }
 
+static int is_wanted(const verify *v, const verify_step *s) {
+    return (!v->only || is_listed(v->only, s->name)) && !is_listed(v->skip, s->name);
+}
+
+int verify_is_empty(const verify *v) {
+    const verify_step *s = verify_steps;
+    while (s->name && !is_wanted(v, s)) {
+        s++;
+    }
+    return s->name == NULL;
+}
+
 const char *verify_unknown(const char *names) {
     const verify_step *s = verify_steps;
     for (; names && s->name; names = s->name ? next_name(names) : names) {
@@ -97,7 +109,7 @@ int verify_run(verify *v) {
     v->newtons = v->limit = fmin(VERIFY_FORCE, fmin(v->info.max_force, v->info.continuous_force));
     v->scale = 1.0;
     for (const verify_step *s = verify_steps; s->name; s++) {
-        if ((!v->only || is_listed(v->only, s->name)) && !is_listed(v->skip, s->name)) {
+        if (is_wanted(v, s)) {
             run_step(v, s);
         }
     }

@@ -60,7 +60,7 @@ TEST(an_older_response_goes_and_nothing_measured_is_a_failure) {
     p = RUN_TOOL("verify", "--simulate", "--only", "scale", "--out", tool_path("again"));
     assert_int_equal(p.exit_code, 1);
     assert_non_null(strstr(p.out, "no mass was given: --mass KG"));
-    assert_non_null(strstr(p.err, "verify: nothing was measured"));
+    assert_non_null(strstr(p.err, "verify: nothing was measured, for the reasons above"));
     process_free(&p);
     assert_int_equal(files_that_end("again.csv"), 0);
     assert_int_equal(files_that_end("again.html"), 1);
@@ -103,12 +103,16 @@ TEST(a_finding_that_failed_is_exit_code_3) {
 }
 
 TEST(wrong_arguments_are_refused_and_nothing_is_written) {
-    static const struct {
+    static char long_uri[1200] = "--device=fake:?seed=";
+    memset(long_uri + strlen(long_uri), '1', sizeof long_uri - 1 - strlen(long_uri));
+    const struct {
         const char *arguments[3];
         int code;
         const char *says;
     } cases[] = {{{"--only", "rate,wals"}, 2, "unknown step 'wals'"},
                  {{"--skip=,"}, 2, "unknown step ''"},
+                 {{"--only=rate", "--skip=rate"}, 2, "leave no step"},
+                 {{"--simulate", long_uri}, 2, "the URI is too long"},
                  {{"--simulate", "--device=touch"}, 2, "takes a fake device, found --device touch"},
                  {{"--device=fake:?nothing=1"}, 2, "expected key=value"},
                  {{"--mass=5"}, 2, "0.01|0.1"},
