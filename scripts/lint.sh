@@ -43,7 +43,7 @@ check_sources() {
     local elsewhere='^tests/(fuzz|mutants|package/(consumer|host|versions))/|^bindings/python/native/|^tests/abi/deprecated\.c$|^samples/bench/closest_peers\.c$|^samples/(web|languages)/|^tests/fidelity/hashes\.c$|/(view|from_texture)_none\.c$'
     units=$(printf '%s\n' "$@" | grep -E '\.(c|cpp)$' | grep -vE "$windows|$debug|$elsewhere" || true)
     [ -z "$units" ] || tidy release <<<"$units"
-    units=$(printf '%s\n' "$@" | grep -E "$debug" || true)
+    units=$(printf '%s\n' "$@" | grep -E "$debug" || true) # compiled in debug builds only
     if [ -n "$units" ]; then
         configure asan-ubsan
         tidy asan-ubsan <<<"$units"

@@ -69,7 +69,7 @@ figures() {
         return 0
     fi
     /usr/bin/python3 samples/study/dark.py "$out"/{sweep,stability{,_methods,_amplitudes,_effects},speed_accuracy,smooth,even,signals,coverage,temporal,device}.png \
-        "$out"/{gratings,preferences,tradeoff,transitions,velocity}.png # of what pages show
+        "$out"/{gratings,preferences,tradeoff,transitions,velocity}.png # those that pages show
     [ "$how" != --update ] || cp build/study/failures.md samples/study/failures.md
     echo "run: the numbers are in build/study, the pictures and what they were drawn from in $out"
 }
@@ -105,6 +105,7 @@ web() {
     echo "run: the page is in build/web, after $((SECONDS - begin)) s; to see it: python3 -m http.server --directory build/web 8000"
 }
 
+# usage: docs [page]: with the page of build/web, if it is built. A release is without, so that a clone gives the same bytes
 docs() {
     need_packages python3-venv
     need_python docs-venv docs/site/requirements.txt
@@ -112,7 +113,7 @@ docs() {
     rm -rf build/docs
     build/docs-venv/bin/python -B docs/site/pages.py build/docs/pages
     PYTHONDONTWRITEBYTECODE=1 build/docs-venv/bin/sphinx-build -q -W --keep-going -j auto -c docs/site -d build/docs/work build/docs/pages build/docs/html
-    if [ -f build/web/main.js ]; then # the site gets the page, if it is built, and its links go there
+    if [ "${1:-}" = page ] && [ -f build/web/main.js ]; then # the links to the page go there
         cp -r build/web build/docs/html/page
         sed -i 's|href="http://127.0.0.1:8000/#|href="../page/index.html#|g' build/docs/html/docs/*.html
     fi

@@ -155,7 +155,7 @@ date_sources() {
     export SOURCE_DATE_EPOCH
 }
 
-# Builds what an archive contains: the tool, shared libraries. usage: build_shared NAME [OPTION...]: CMake's, for the
+# Builds the contents of an archive: the tool, shared libraries. usage: build_shared NAME [OPTION...]: CMake's, for the
 # toolchain     In build/archive-NAME.
 build_shared() {
     local name=$1 folder=build/archive-$1 log=build/package.log
@@ -213,7 +213,7 @@ release_archives() {
     build_shared "$host" "${oldest[@]}" "$link" "${link/SHARED/EXE}"
     release_archive "$1" "$name-linux-$host" "build/archive-$host"
     if ! prepare_zig; then
-        echo "run: SKIPPED: what is for macOS and arm64, and for glibc 2.28 (see above): one wheel is built for this machine's" >&2
+        echo "run: SKIPPED: files for macOS and arm64, and for glibc 2.28 (see above): one wheel is built, for this machine's" >&2
         release_wheel "$1" "linux-$host" ''
         return 0
     fi
@@ -278,6 +278,8 @@ check_release() {
     if compgen -G "$1/*-macos-*" >/dev/null; then
         need_packages llvm
         /usr/bin/python3 -B tests/package/macos.py "$1" build/zig
+    else
+        echo 'run: SKIPPED: the files for macOS: the release has none' >&2
     fi
     echo 'run: trying the two commands in the oldest and in the newest system'
     test_systems '' "$OLDEST_SYSTEM" "$NEWEST_SYSTEM"

@@ -122,6 +122,8 @@ def main():
         problems += compiler_errors(folder, [[sys.argv[2], "-std=c99", "-pedantic-errors"], [sys.argv[3], "-x", "c++", "-std=c++17"]])
         problems += shell_errors(folder)
         problems += script_errors(folder)
+    if not shutil.which("node"):
+        print("snippets: SKIPPED: JavaScript's syntax: there is no node")
     print("\n".join(problems) if problems else "snippets: " + ", ".join(f"{n} {l}" for l, n in sorted(counts.items())))
     return 1 if problems else 0
 

@@ -169,6 +169,8 @@ def main():
         try_nix(version)
         try_vcpkg(version)
         try_conan(CONAN[0], version)
+    else:
+        print("recipes: versions and manifest agree; nothing was built or evaluated: no path of conan was given")
 
 
 main()
