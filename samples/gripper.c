@@ -1,6 +1,6 @@
-/* A soft ball between the fingers of a gripper, and a wrist that springs back to where it was: on Force Dimension's
- * omega.7, sigma.7 and lambda.7. It prints the gripper's angle for ten seconds, then the joints'. usage: gripper
- * [DEVICE], as knurl_device_open() has it; by default dhd. SPDX-License-Identifier: MIT */
+/* A soft ball between the fingers of a gripper, and a wrist that springs back to its first orientation: on Force
+ * Dimension's omega.7, sigma.7 and lambda.7. It prints the gripper's angle for ten seconds, then the joints'. usage:
+ * gripper [DEVICE], as knurl_device_open() has it; by default dhd. SPDX-License-Identifier: MIT */
 #include <knurl/knurl.h>
 
 #include <math.h>
