@@ -69,7 +69,7 @@ figures() {
         return 0
     fi
     /usr/bin/python3 samples/study/dark.py "$out"/{sweep,stability{,_methods,_amplitudes,_effects},speed_accuracy,smooth,even,signals,coverage,temporal,device}.png \
-        "$out"/{gratings,preferences,tradeoff,transitions,velocity}.png # those that pages show
+        "$out"/{gratings,preferences,tradeoff,transitions,velocity}.png # those on pages
     [ "$how" != --update ] || cp build/study/failures.md samples/study/failures.md
     echo "run: the numbers are in build/study, the pictures and what they were drawn from in $out"
 }

@@ -3,7 +3,8 @@
 usage: tool.py KNURL_EXE LIBRARIES KNURL ASSETS WINE_PREFIX [[CFGMGR32] EMULATE]
 KNURL_EXE: beside it knurl_study.exe and the DLLs. LIBRARIES: a folder of those that drivers load.
 With CFGMGR32 (cfgmgr32.c) and EMULATE (tests/device/rawhid/emulate_rawhid.c) only the raw HID driver is tried, on an emulated
-device; with EMULATE alone (tests/device/inverse3/emulate_inverse3.c) only the Inverse3, on an emulated service. Nothing else may use the wine prefix meanwhile. Exit code 77: KNURL, or EMULATE, is missing.
+device; with EMULATE alone (tests/device/inverse3/emulate_inverse3.c) only the Inverse3's, on an emulated service. Nothing
+else may use the wine prefix meanwhile. Exit code 77: KNURL, or EMULATE, is missing.
 SPDX-License-Identifier: MIT"""
 import json
 import math
