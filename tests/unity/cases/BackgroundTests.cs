@@ -51,6 +51,21 @@ namespace Knurl.Tests
             Assert.That(!started.Result && !d.Running);
         }
 
+        /// <summary>A failed retry goes without an error, but not a start that the game has asked for meanwhile.</summary>
+        [Test]
+        public void AStartDuringARetryIsTold()
+        {
+            KnurlDevice d = MakeDevice("nothing");
+            d.Autostart = true;
+            d.Retry = 1e-6f;
+            ExpectError("nothing");
+            Player.Frames(2); // the second tries again
+            ExpectError("nothing");
+            Task<bool> started = d.StartDeviceAsync();
+            Until(() => started.IsCompleted, "it has failed");
+            Assert.That(!started.Result);
+        }
+
         [Test]
         public void WithoutPlayModeAStartElsewhereFailsAtOnce()
         {

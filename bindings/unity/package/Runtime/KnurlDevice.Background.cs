@@ -33,8 +33,8 @@ namespace Knurl
         }
 
         /// <summary>Stops it like <see cref="StopDevice"/>, but the force ramps down and the device is closed on another
-        /// thread. For the game it is stopped at once. A device with surfaces of <see cref="LoadGltf"/> blocks all the
-        /// same, because they stay.</summary>
+        /// thread. For the game it is stopped at once. Blocks all the same with surfaces of <see cref="LoadGltf"/>, because
+        /// they stay, and while <see cref="StartDeviceAsync"/> opens the device.</summary>
         /// <returns>Done once the device is closed.</returns>
         public Task StopDeviceAsync()
         {
@@ -61,6 +61,7 @@ namespace Knurl
         }
 
         /// <summary>Lists the devices like <see cref="ListDevices"/>, on another thread.</summary>
+        /// <exception cref="KnurlException">The native library is missing.</exception>
         public static Task<KnurlDeviceListing[]> ListDevicesAsync()
         {
             Library.Demand();
@@ -73,6 +74,7 @@ namespace Knurl
             isNew = false;
             if (opening != null)
             {
+                opening.IsRetry &= isRetry;
                 return null;
             }
             try
@@ -113,7 +115,7 @@ namespace Knurl
             {
                 Complain("start", failure.Message);
             }
-            done.Told.SetResult(isRunning); // last: whoever waits for it goes on
+            done.Told.SetResult(isRunning); // last: code that awaits it may run here
         }
 
         /// <summary>Starts the loop of a session that was opened. Returns why it cannot, or null.</summary>
