@@ -42,6 +42,23 @@ namespace Knurl.Tests
         }
 
         [Test]
+        public void AGameWithoutAudioRumbles()
+        {
+            int rate = AudioSettings.outputSampleRate;
+            device.StopDevice();
+            Assert.That(device.StartDevice());
+            AudioSettings.outputSampleRate = 0;
+            try
+            {
+                Until(() => two.Motors.magnitude > 0.05f, "they turn");
+            }
+            finally
+            {
+                AudioSettings.outputSampleRate = rate;
+            }
+        }
+
+        [Test]
         public void AnotherGamepadCanBeChosenAndStopsTheFirst()
         {
             Until(() => two.Motors.magnitude > 0.05f, "they turn");

@@ -9,7 +9,7 @@ namespace Knurl
         [NonSerialized] SoundHandle rumble; // of the run, once it was asked for
 
         /// <summary>The force as the strengths of two motors, 0 to 1: x for a gamepad's slow, heavy one (3 to 80 Hz), y for the
-        /// fast, light one (above); of a sine of 1 N, 1. Zero if it does not run, in a pause, and after the game has hung for a
+        /// fast, light one (above); a sine of 1 N gives 1. Zero if it does not run, in a pause, and after the game has hung for a
         /// quarter of a second.</summary>
         public unsafe Vector2 GetRumble()
         {
@@ -20,7 +20,8 @@ namespace Knurl
             }
             try
             {
-                rumble = rumble ?? SoundHandle.Of(session, AudioSettings.outputSampleRate);
+                int rate = AudioSettings.outputSampleRate; // Hz; 0 if the game has no audio
+                rumble = rumble ?? SoundHandle.Of(session, rate > 0 ? rate : 48000);
                 return rumble.GetRumble(bands) ? new Vector2((float)bands[0], (float)bands[1]) : Vector2.zero;
             }
             catch (KnurlException e)

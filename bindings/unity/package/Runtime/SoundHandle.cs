@@ -42,7 +42,7 @@ namespace Knurl
             }
         }
 
-        /// <summary>bands: two numbers. False if there are none. Main thread.</summary>
+        /// <summary>bands: room for two numbers. False after an error. Main thread.</summary>
         internal bool GetRumble(double* bands)
         {
             return NativeMethods.knurl_sound_get_rumble((knurl_sound*)handle, bands) == NativeMethods.KNURL_OK;
