@@ -135,6 +135,38 @@ namespace Knurl.Tests
             IsFelt(surface);
         }
 
+        /// <summary>A prefab has stored its mesh, which is another now.</summary>
+        [Test]
+        public void A_mesh_that_has_changed_since_is_stored_again_in_scenes_and_warned_of_in_prefabs()
+        {
+            KnurlSurface surface = MakeShown(ShaderPropertyType.Texture);
+            surface.Geometry = KnurlGeometry.Of(MeshOf(surface));
+            MeshOf(surface).vertices = MeshOf(surface).vertices.Select(place => 2f * place).ToArray();
+            AssetDatabase.CreateAsset(surface.gameObject, "Assets/a.prefab");
+            LogAssert.Expect(LogType.Warning, new Regex("Assets/a.prefab: the surface 'a'.*changed.*Store geometry again"));
+            new BuildCheck().OnPreprocessBuild(new BuildReport());
+            Process(new BuildReport(), surface);
+            CollectionAssert.AreEqual(MeshOf(surface).vertices, surface.Geometry.Mesh.vertices);
+            new BuildCheck().OnPreprocessBuild(new BuildReport());
+            LogAssert.NoUnexpectedReceived();
+        }
+
+        [Test]
+        public void A_mesh_that_a_game_changes_is_felt_in_place_of_the_stored_one()
+        {
+            KnurlSurface surface = MakeShown(ShaderPropertyType.Texture);
+            surface.Geometry = KnurlGeometry.Of(MeshOf(surface));
+            Application.isEditor = false;
+            Player.EnterPlayMode();
+            Mesh other = Made(Plate()), felt;
+            surface.GetComponent<MeshFilter>().sharedMesh = other;
+            surface.FindMesh(out felt);
+            Assert.AreSame(surface.Geometry.Mesh, felt);
+            surface.UpdateMesh();
+            surface.FindMesh(out felt);
+            Assert.AreSame(other, felt);
+        }
+
         [Test]
         public void A_mesh_without_triangles_is_told()
         {

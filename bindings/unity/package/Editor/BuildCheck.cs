@@ -29,11 +29,14 @@ namespace Knurl.Editing
                 var prefab = AssetDatabase.LoadAssetAtPath<GameObject>(path);
                 foreach (KnurlSurface surface in SurfacesOf(prefab == null ? new GameObject[0] : new[] { prefab }))
                 {
-                    string fault = FaultOf(surface, true);
-                    if (fault != null && surface.Geometry == null)
+                    Mesh mesh = surface.GetComponent<MeshFilter>().sharedMesh;
+                    bool isOld = surface.Geometry != null && mesh != null && !surface.Geometry.IsOf(mesh);
+                    string fault = isOld ? "its mesh has changed since its geometry was stored" : FaultOf(surface, true);
+                    if (fault != null && (isOld || surface.Geometry == null))
                     {
                         Debug.LogWarning("Knurl: " + path + ": the surface '" + surface.name + "' is not felt in the player as "
-                            + "in the editor: " + fault + ". Press Store geometry in its inspector.", surface);
+                            + "in the editor: " + fault + ". Press Store geometry " + (isOld ? "again " : "")
+                            + "in its inspector.", surface);
                     }
                 }
             }
@@ -45,11 +48,12 @@ namespace Knurl.Editing
             var stored = new Dictionary<Mesh, KnurlGeometry>(); // of a mesh that several surfaces show
             foreach (KnurlSurface surface in SurfacesOf(scene.GetRootGameObjects()))
             {
-                if (FaultOf(surface, report != null) == null && !IsBatched(surface))
+                Mesh mesh = surface.GetComponent<MeshFilter>().sharedMesh;
+                bool isStored = surface.Geometry != null; // by a prefab: the mesh may have changed since
+                if (mesh == null || (!isStored && FaultOf(surface, report != null) == null && !IsBatched(surface)))
                 {
                     continue;
                 }
-                Mesh mesh = surface.GetComponent<MeshFilter>().sharedMesh;
                 if (!stored.ContainsKey(mesh))
                 {
                     stored.Add(mesh, KnurlGeometry.Of(mesh));
@@ -58,7 +62,7 @@ namespace Knurl.Editing
                 {
                     surface.Geometry = stored[mesh];
                 }
-                else if (surface.Geometry == null)
+                else if (!isStored)
                 {
                     Debug.LogWarning("Knurl: " + scene.path + ": the surface '" + surface.name + "' is not felt: its mesh '"
                         + mesh.name + "' has no triangles that can be read", surface);
@@ -74,14 +78,13 @@ namespace Knurl.Editing
         static bool IsBatched(KnurlSurface surface)
         {
             StaticEditorFlags flags = GameObjectUtility.GetStaticEditorFlags(surface.gameObject);
-            return (flags & StaticEditorFlags.BatchingStatic) != 0 && surface.GetComponent<MeshFilter>().sharedMesh != null;
+            return (flags & StaticEditorFlags.BatchingStatic) != 0;
         }
 
         /// <summary>Why the mesh itself is not felt in a player as in the editor; null if it is.</summary>
         internal static string FaultOf(KnurlSurface surface, bool isStripped)
         {
-            var filter = surface.GetComponent<MeshFilter>();
-            Mesh mesh = filter == null ? null : filter.sharedMesh;
+            Mesh mesh = surface.GetComponent<MeshFilter>().sharedMesh;
             var drawn = surface.GetComponent<Renderer>();
             bool needsUvs = surface.Axis == Vector3.zero && !surface.BoxCoordinates;
             return mesh == null || surface.Grating == null ? null

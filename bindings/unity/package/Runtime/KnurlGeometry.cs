@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 using System;
 using System.Collections.Generic;
+using System.Linq;
 using UnityEngine;
 using UnityEngine.Rendering;
 
@@ -20,15 +21,11 @@ namespace Knurl
 
         [NonSerialized] Mesh mesh;
 
-        /// <summary>Stores a mesh that can be read now; null if it has no triangles.</summary>
+        /// <summary>Stores a mesh that can be read now; null if there is no mesh, or it has no triangles.</summary>
         internal static KnurlGeometry Of(Mesh mesh)
         {
-            var indices = new List<int>();
-            for (int i = 0; i < mesh.subMeshCount; i++)
-            {
-                indices.AddRange(mesh.GetTopology(i) == MeshTopology.Triangles ? mesh.GetIndices(i) : new int[0]);
-            }
-            if (indices.Count == 0 || mesh.vertices.Length == 0)
+            int[] indices = mesh == null ? new int[0] : IndicesOf(mesh);
+            if (indices.Length == 0 || mesh.vertices.Length == 0)
             {
                 return null;
             }
@@ -38,8 +35,24 @@ namespace Knurl
             made.normals = mesh.normals;
             made.tangents = mesh.tangents;
             made.uvs = mesh.uv;
-            made.triangles = indices.ToArray();
+            made.triangles = indices;
             return made;
+        }
+
+        static int[] IndicesOf(Mesh mesh)
+        {
+            var indices = new List<int>();
+            for (int i = 0; i < mesh.subMeshCount; i++)
+            {
+                indices.AddRange(mesh.GetTopology(i) == MeshTopology.Triangles ? mesh.GetIndices(i) : new int[0]);
+            }
+            return indices.ToArray();
+        }
+
+        /// <summary>False if the mesh has changed since it was stored.</summary>
+        internal bool IsOf(Mesh now)
+        {
+            return vertices.SequenceEqual(now.vertices) && uvs.SequenceEqual(now.uv) && triangles.SequenceEqual(IndicesOf(now));
         }
 
         /// <summary>A readable mesh, the same for all surfaces that have this geometry.</summary>
@@ -62,6 +75,11 @@ namespace Knurl
                 }
                 return mesh;
             }
+        }
+
+        void OnDisable()
+        {
+            DestroyImmediate(mesh);
         }
     }
 }

@@ -124,7 +124,8 @@ namespace Knurl
         }
 
         /// <summary>Stored triangles, which are felt in place of a mesh that cannot be read, and in a built game always. Null,
-        /// the default: none. A scene's surfaces get theirs when it is built.</summary>
+        /// the default: the mesh itself. A scene's surfaces get theirs when it is built. In a game, <see cref="UpdateMesh"/> sets
+        /// it to null if the mesh can be read.</summary>
         public KnurlGeometry Geometry
         {
             get { return geometry; }
@@ -171,6 +172,10 @@ namespace Knurl
         public void UpdateMesh()
         {
             Mesh mesh;
+            if (FindOwnMesh(out mesh) == null && Application.isPlaying)
+            {
+                geometry = null; // of the mesh before the change
+            }
             FindMesh(out mesh);
             for (int i = 0; mesh != null && i < Registry.Devices.Count; i++)
             {
@@ -233,14 +238,7 @@ namespace Knurl
         /// <summary>Finds the mesh that is felt, or null. Returns why it cannot be felt, or null if it can.</summary>
         internal string FindMesh(out Mesh mesh)
         {
-            var filter = GetComponent<MeshFilter>();
-            var drawn = GetComponent<Renderer>();
-            mesh = filter == null ? null : filter.sharedMesh;
-            string refusal = mesh == null ? "Its MeshFilter has no mesh: there is nothing to feel."
-                : drawn != null && drawn.isPartOfStaticBatch
-                ? "Its mesh was merged with others into '" + mesh.name + "' by static batching: clear Batching Static "
-                    + "among the static flags of its GameObject."
-                : MeshReader.Refusal(mesh);
+            string refusal = FindOwnMesh(out mesh);
             if (geometry != null && (refusal != null || !Application.isEditor))
             {
                 mesh = geometry.Mesh;
@@ -248,6 +246,19 @@ namespace Knurl
             }
             mesh = refusal == null ? mesh : null;
             return refusal;
+        }
+
+        /// <summary>Finds the MeshFilter's mesh, which may be null. Returns why it cannot be felt, or null if it can.</summary>
+        string FindOwnMesh(out Mesh mesh)
+        {
+            var filter = GetComponent<MeshFilter>();
+            var drawn = GetComponent<Renderer>();
+            mesh = filter == null ? null : filter.sharedMesh;
+            return mesh == null ? "Its MeshFilter has no mesh: there is nothing to feel."
+                : drawn != null && drawn.isPartOfStaticBatch
+                ? "Its mesh was merged with others into '" + mesh.name + "' by static batching: clear Batching Static "
+                    + "among the static flags of its GameObject."
+                : MeshReader.Refusal(mesh);
         }
 
         internal bool WasChangedSince(long gratingsSeen)
