@@ -11,7 +11,7 @@ namespace Knurl.Tests
     public class ShearTests : PlayerSuite
     {
         const int Frames = 200;
-        const float Tall = 0.02f; // m: of the plate's parent, where it is as high as it is wide
+        const float Tall = 0.02f; // m: above the sheet's waves
 
         KnurlSurface surface;
         KnurlDevice device;

@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: MIT
 using System.Linq;
-using System.Text.RegularExpressions;
 using Knurl.Editing;
 using Knurl.Tests;
 using NUnit.Framework;
 using UnityEditor;
-using UnityEditor.Build.Reporting;
 using UnityEditor.SceneManagement;
 using UnityEngine;
-using UnityEngine.Rendering;
-using UnityEngine.SceneManagement;
-using UnityEngine.TestTools;
 
 namespace Knurl.Cases
 {

@@ -65,7 +65,7 @@ namespace Knurl.Tests
             Object.DestroyImmediate(made);
         }
 
-        /// <summary>What Unity does before an importer runs.</summary>
+        /// <summary>As Unity calls it before an importer runs.</summary>
         void Preprocess(string path)
         {
             var processor = new TagImporter { assetPath = path, context = context };

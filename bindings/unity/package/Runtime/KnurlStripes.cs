@@ -17,7 +17,7 @@ namespace Knurl
     {
         const int MostTriangles = 200000;
 
-        [SerializeField, Tooltip("Colour over ridges; its alpha says how much of the mesh it covers.")]
+        [SerializeField, Tooltip("Colour over ridges; its alpha is how much of the mesh it covers.")]
         Color ridge = new Color(1f, 0.95f, 0.85f, 0.2f);
 
         [SerializeField, Tooltip("Colour over grooves.")]

@@ -33,6 +33,7 @@ namespace Knurl
         /// <param name="name">The file's name, for messages and to find its only root.</param>
         /// <returns>As <see cref="Read(string)"/>.</returns>
         /// <exception cref="KnurlException">As <see cref="Read(string)"/>.</exception>
+        /// <exception cref="ArgumentNullException">content is null.</exception>
         public static IReadOnlyList<KnurlTag> Read(byte[] content, string name)
         {
             if (content == null)
@@ -56,6 +57,7 @@ namespace Knurl
         /// <param name="root">The objects are at or below it.</param>
         /// <param name="tags">Of <see cref="Read(string)"/>, from the same file.</param>
         /// <returns>The tags that could not be placed, one sentence each; empty if all were.</returns>
+        /// <exception cref="ArgumentNullException">root or tags is null.</exception>
         public static IReadOnlyList<string> Apply(GameObject root, IReadOnlyList<KnurlTag> tags)
         {
             if (root == null || tags == null)

@@ -4,7 +4,7 @@ namespace Knurl
     /// <summary>The settings with which a session opens its device, for any thread.</summary>
     internal sealed unsafe class SessionSettings
     {
-        internal knurl_session_desc Desc; // without what it points to
+        internal knurl_session_desc Desc; // its pointers are set by TryOpen
         internal byte[] Device;           // UTF-8, ends with 0
         internal byte[] Stroke;           // the same
         internal byte[] Response;         // a file's content, or null

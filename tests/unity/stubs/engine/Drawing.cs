@@ -1,4 +1,4 @@
-// Test-only, never shipped: what is drawn.
+// Test-only, never shipped: materials, meshes and shaders for drawing.
 using System;
 using System.Collections.Generic;
 using System.Reflection;
@@ -12,12 +12,12 @@ namespace UnityEngine
         public Color color { get; set; }
         public Texture mainTexture { get; set; }
 
-        /// For tests: what SetColor was given.
+        /// For tests: the arguments of SetColor.
         public readonly Dictionary<string, Color> Colors = new Dictionary<string, Color>();
         public void SetColor(string name, Color value) { Colors[name] = value; }
     }
 
-    /// Records what is drawn.
+    /// Records each drawn mesh.
     public static class Graphics
     {
         public sealed class Drawing
@@ -68,7 +68,7 @@ namespace UnityEngine
         {
             public static event Action<ScriptableRenderContext, Camera> beginCameraRendering;
 
-            /// For tests: what URP and HDRP do for a camera.
+            /// For tests: as URP and HDRP call it for a camera.
             public static void Begin(Camera camera)
             {
                 if (beginCameraRendering != null)
