@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+using System.Linq;
 using Knurl.Samples;
 using Knurl.Tests;
 using NUnit.Framework;
@@ -60,7 +61,7 @@ namespace Knurl.Cases
                 Material material = each.GetComponent<Renderer>().sharedMaterial;
                 Assert.AreSame(pipeline.Lit, material.shader, each.name);
                 Assert.AreEqual(each.Color, material.color, each.name);
-                Assert.AreEqual(each.GetComponent<KnurlSurface>() != null, material.mainTexture != null, each.name);
+                Assert.AreEqual(each.GetComponent<KnurlSurface>() != null, each.GetComponent<KnurlStripes>() != null, each.name);
             }
         }
 
@@ -69,19 +70,13 @@ namespace Knurl.Cases
         {
             new GameObject("Demo").AddComponent<KnurlDemo>();
             Player.Frames(2);
-            foreach (KnurlSurface surface in Object.FindObjectsOfType<KnurlSurface>())
-            {
-                if (surface.name == "Ridges of 1 mm")
-                {
-                    Color32[] pixels = ((Texture2D)surface.GetComponent<Renderer>().sharedMaterial.mainTexture).Pixels;
-                    int edges = 0;
-                    for (int i = 1; i < 512; i++)
-                    {
-                        edges += pixels[i].r != pixels[i - 1].r ? 1 : 0;
-                    }
-                    Assert.AreEqual(2 * 48, edges); // 48 mm: 48 ridges with two edges each
-                }
-            }
+            Graphics.Drawn.Clear();
+            Camera.onPreCull(null);
+            Assert.AreEqual(3, Graphics.Drawn.Count);
+            Transform plate = Object.FindObjectsOfType<KnurlSurface>().Single(each => each.name == "Ridges of 1 mm").transform;
+            Graphics.Drawing drawing = Graphics.Drawn.Single(each => each.Matrix == plate.localToWorldMatrix);
+            float[] cycles = drawing.Mesh.uv.Take(3).Select(each => each.x).ToArray(); // of a triangle, half of the quad
+            Assert.AreEqual(48f, cycles.Max() - cycles.Min(), 1e-3f, "ridges on 48 mm");
         }
 
         [Test]

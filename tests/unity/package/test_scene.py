@@ -69,7 +69,8 @@ class Scene(unittest.TestCase):
             fields = {field for field in fields if not field.startswith("m_")}
             self.assertEqual(fields, declared, path)
             seen.add(os.path.basename(name))
-        self.assertEqual(seen, {"KnurlSurface", "KnurlDevice", "KnurlMouse", "KnurlCursor", "KnurlPaint", "KnurlReadout"})
+        self.assertEqual(seen, {"KnurlSurface", "KnurlDevice", "KnurlMouse", "KnurlCursor", "KnurlPaint", "KnurlReadout",
+                                "KnurlStripes"})
 
     def test_it_can_be_seen_and_felt(self):
         kinds = [kind for kind, _, _ in self.documents]
@@ -78,8 +79,8 @@ class Scene(unittest.TestCase):
         self.assertIn("autostart: 1", package.read(SCENE))
 
     def test_whatever_is_drawn_is_painted_and_the_device_is_heard_and_plotted(self):
-        """The built-in material is magenta in URP, and shows no ridge."""
-        drawn, painted, plotted = set(), set(), 0
+        """The built-in material is magenta in URP."""
+        drawn, painted, felt, striped, plotted = set(), set(), set(), set(), 0
         for kind, _, text in self.documents:
             owner = re.search(r"m_GameObject: \{fileID: (\d+)\}", text)
             script = re.search(r"m_Script: \{fileID: \d+, guid: (\w+)", text)
@@ -88,9 +89,14 @@ class Scene(unittest.TestCase):
                 drawn.add(owner.group(1))
             elif name == "KnurlPaint.cs":
                 painted.add(owner.group(1))
+            elif name == "KnurlSurface.cs":
+                felt.add(owner.group(1))
+            elif name == "KnurlStripes.cs":
+                striped.add(owner.group(1))
             plotted += name == "KnurlReadout.cs"
         self.assertEqual(len(drawn), 5)
         self.assertEqual((painted, plotted), (drawn, 1))
+        self.assertEqual((len(felt), striped), (3, felt))
         self.assertIn("sound: 1", package.read(SCENE))
 
 

@@ -3,7 +3,7 @@ using UnityEngine;
 
 namespace Knurl.Samples
 {
-    /// <summary>Three square plates side by side, each with a grating and a picture of it.</summary>
+    /// <summary>Three square plates side by side, each with a grating and its stripes.</summary>
     internal static class KnurlPlates
     {
         internal const float Side = 0.048f; // m
@@ -33,6 +33,7 @@ namespace Knurl.Samples
             surface.Axis = Vector3.right; // along the quad's u
             surface.Grating = grating;
             plate.AddComponent<KnurlPaint>();
+            plate.AddComponent<KnurlStripes>();
         }
     }
 }
