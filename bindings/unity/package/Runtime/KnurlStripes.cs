@@ -7,7 +7,9 @@ using UnityEngine.Rendering;
 namespace Knurl
 {
     /// <summary>Draws the ridges of the <see cref="KnurlSurface"/> on this object over its mesh, at the places where they are
-    /// felt: in the Game view and in built games, in the built-in pipeline, URP and HDRP. Main thread.</summary>
+    /// felt: in the Game view and in built games, in the built-in pipeline, URP and HDRP. Draws nothing on a mesh of more
+    /// than 200,000 triangles. Lays the ridges out again after each change of mesh, grating or scale, which takes some
+    /// milliseconds for a large mesh: not for every frame. Main thread.</summary>
     [AddComponentMenu("Knurl/Knurl Stripes")]
     [HelpURL(Manual.Stripes)]
     [ExecuteAlways]
