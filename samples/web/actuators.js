@@ -1,4 +1,4 @@
-// What else plays the forces: an Inverse3, an actuator on a sound output, a gamepad's motors. SPDX-License-Identifier: MIT
+// Other players of the forces: an Inverse3, an actuator on a sound output, a gamepad's motors. SPDX-License-Identifier: MIT
 import { $, isPressed, press, tell } from "./page.js";
 import { Output } from "./sound.js";
 
@@ -19,7 +19,8 @@ export class Actuators {
   // began(): an Inverse3 takes the hand's place.
   constructor(simulation, began) {
     Object.assign(this, { simulation, began, exchanges: null, rumbled: 0 });
-    this.port = Number(new URLSearchParams(location.hash.slice(1)).get("inverse3")) || PORT;
+    const port = Number(new URLSearchParams(location.hash.slice(1)).get("inverse3"));
+    this.port = Number.isInteger(port) && port > 0 && port < 65536 ? port : PORT;
     this.coil = new Output();
     $("inverse3").addEventListener("click", () => this.connect(isPressed("inverse3") ? 0 : this.port));
     document.addEventListener("visibilitychange", () => this.connect());
@@ -102,7 +103,7 @@ export class Actuators {
     return [...navigator.getGamepads()].find((pad) => pad?.vibrationActuator);
   }
 
-  // The worker renders what is wanted.
+  // The worker renders samples only while something plays them.
   speak() {
     this.simulation.send("voice", { on: Boolean(this.coil.on) || isPressed("rumble") });
   }

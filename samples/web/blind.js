@@ -1,5 +1,5 @@
 // A blind comparison of two methods: each trial calls them A and B in an order that nobody sees, and counts which is
-// preferred. What would give them away is hidden meanwhile. SPDX-License-Identifier: MIT
+// preferred. All that tells them apart is hidden meanwhile. SPDX-License-Identifier: MIT
 import { method, setMethod } from "./compare.js";
 import { $, press, scene, surface, tell } from "./page.js";
 
@@ -34,9 +34,10 @@ export class Blind {
       $(`prefer-${letter}`).addEventListener("click", () => this.prefer(i));
     });
     $("blind-copy").addEventListener("click", () => this.copy());
-    addEventListener("keydown", ({ key, target }) => {
+    addEventListener("keydown", ({ key, target, ctrlKey, altKey, metaKey }) => {
       const which = "ab".indexOf(key.toLowerCase());
-      if (this.isOn && which >= 0 && key.length === 1 && !target.matches?.("input, select")) {
+      const isText = target.matches?.("select, input:not([type=radio], [type=range])");
+      if (this.isOn && which >= 0 && key.length === 1 && !isText && !ctrlKey && !altKey && !metaKey) {
         this.play(which);
       }
     });

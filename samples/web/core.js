@@ -6,7 +6,7 @@ import { METHODS, ROW } from "./rows.js";
 export const MOST = 2000; // ticks, rays or points at once
 const SURFACE = 17; // numbers of a surface
 export const SAMPLE_RATE = 48000; // of the voice for actuators
-const MOST_SAMPLES = 96; // a tick, at 500 Hz
+const MOST_SAMPLES = 96; // a tick, at 500 Hz; at a lower rate fewer ticks fill the buffer
 
 export class Knurl {
   // options: of Emscripten's module, such as locateFile.
@@ -79,9 +79,9 @@ export class Knurl {
 
   // force, stiffness: limits of an Inverse3; 0: the HIP is the caller's.
   setDevice({ rate = 1000, resolution = 0, protections = 15, force = 0, stiffness = 0 }) {
+    this.check(this.module._web_device(rate, resolution, protections, force, stiffness));
     this.rate = rate;
     this.setVoice(this.hasVoice);
-    this.check(this.module._web_device(rate, resolution, protections, force, stiffness));
   }
 
   cast(from, to) {
@@ -113,8 +113,9 @@ export class Knurl {
   speak(count) {
     const { module, memory } = this;
     this.voiced += (count * SAMPLE_RATE) / this.rate;
-    const samples = Math.floor(this.voiced);
-    this.voiced -= samples;
+    const due = Math.floor(this.voiced);
+    const samples = Math.min(due, MOST * MOST_SAMPLES);
+    this.voiced -= due;
     module._web_voice_fill(memory.samples, samples, memory.numbers);
     const at = memory.samples / 4;
     return { coil: module.HEAPF32.slice(at, at + samples), rumble: [...this.doubles(memory.numbers, 2)] };

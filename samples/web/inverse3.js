@@ -14,11 +14,11 @@ const MODELS = { inverse3: { name: "Haply Inverse3", force: 3.3, stiffness: 1000
   inverse3x: { name: "Haply Inverse3x", force: 3.3, stiffness: 1000 },
   minverse: { name: "Haply Minverse", force: 0.8, stiffness: 500 } };
 
-// Its devices; null if it is not a message of the service.
+// Its devices that have an id; null if it is not a message of the service.
 function read(text) {
   try {
     const { inverse3 } = text.length > LONGEST ? {} : JSON.parse(text);
-    return Array.isArray(inverse3) ? inverse3 : null;
+    return Array.isArray(inverse3) ? inverse3.filter((device) => typeof device?.device_id === "string") : null;
   } catch {
     return null;
   }
@@ -30,11 +30,13 @@ function positionOf(device) {
   return [x, y, z].every(Number.isFinite) ? [x, z, -y] : null;
 }
 
+const isDenied = (value) => value !== undefined && value !== true;
+
 // Why it plays no forces, or "".
-function troubleOf({ status = {} }) {
-  return status.power_supply === false ? "its power supply is unplugged: plug it in"
-    : status.calibrated === false ? "it is not calibrated: the Haply Hub shows how"
-      : status.ready === false ? "it is not ready: the Haply Hub shows why" : "";
+function troubleOf({ status }) {
+  return isDenied(status?.power_supply) ? "its power supply is unplugged: plug it in"
+    : isDenied(status?.calibrated) ? "it is not calibrated: the Haply Hub shows how"
+      : isDenied(status?.ready) ? "it is not ready: the Haply Hub shows why" : "";
 }
 
 function command(id, [x, y, z], configures) {
@@ -79,6 +81,11 @@ export class Inverse3 {
     if (this.id && this.sent.some(Boolean)) {
       this.send(NONE);
     }
+  }
+
+  // After other work of this thread, which began with halt(): its time is not a silence of the device's.
+  resume() {
+    this.goodAt = performance.now();
   }
 
   end(why) {

@@ -13,7 +13,7 @@ async function compile(answer) {
 
 export class Simulation {
   // Takes the worker and the fetch of WebAssembly that index.html started. Calls ticks({rows, heights, cost, coil,
-  // rumble}) some 80 times per second, and inverse3() for what happens to one.
+  // rumble}) some 80 times per second, and inverse3() for its events.
   constructor({ worker, wasm }, { ticks, inverse3, failed }) {
     this.waiting = new Map();
     this.asked = 0;

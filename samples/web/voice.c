@@ -1,4 +1,4 @@
-/* What actuators play of the page's ticks: samples for a voice coil, and strengths for a gamepad's two motors.
+/* The page's ticks for actuators: samples for a voice coil, and strengths for a gamepad's two motors.
  * SPDX-License-Identifier: MIT */
 #include "web.h"
 

@@ -107,9 +107,12 @@ EMSCRIPTEN_KEEPALIVE int web_feel(uint32_t index, const double numbers[6]) {
 
 /* Sets the update rate (Hz), the encoder's count (m; 0: exact), and KNURL_PROTECT_ bits, before or after a load. For an
  * Inverse3 max_force (N, that its motors hold for long, so that their heat needs no memory) and max_stiffness (N/m) are
- * its limits; 0: the HIP is the page's hand. Resets the HIP. */
+ * its limits; 0: the HIP is the page's hand. Resets the HIP; after an error all stays. */
 EMSCRIPTEN_KEEPALIVE int web_device(double rate, double resolution, uint32_t protections, double max_force,
                                     double max_stiffness) {
+    const knurl_hip_desc hip_before = hip;
+    const double quantum_before = quantum;
+    const int was_real = is_real;
     knurl_hip_desc_init(&hip, sizeof hip);
     hip.update_rate_hz = rate;
     hip.resolution = quantum = resolution;
@@ -123,7 +126,13 @@ EMSCRIPTEN_KEEPALIVE int web_device(double rate, double resolution, uint32_t pro
         hip.viscous = 0.5;
         hip.delay = 2.0;
     }
-    return scene ? open_hip() : KNURL_OK;
+    const knurl_result result = scene ? open_hip() : KNURL_OK;
+    if (result) {
+        hip = hip_before;
+        quantum = quantum_before;
+        is_real = was_real;
+    }
+    return result;
 }
 
 /* --- ticks --- */
@@ -185,7 +194,7 @@ static void step_others(const knurl_tick_output *out, float heights[METHODS]) {
 EMSCRIPTEN_KEEPALIVE void web_tick(uint32_t count, const double *positions, double gain, double *rows, float *heights) {
     for (uint32_t k = 0; k < count; k++) {
         knurl_tick_input in;
-        knurl_tick_output out;
+        knurl_tick_output out = {0}; /* if there is no scene */
         double *row = rows + (size_t)ROW * k;
         memset(&in, 0, sizeof in);
         memcpy(in.position, positions + (size_t)3 * k, sizeof in.position);

@@ -35,7 +35,7 @@ function errorOf(act) {
   }
 }
 
-// Ticks, and what actuators play of them.
+// Ticks, with the samples for actuators.
 function tick(positions, gain = 1) {
   const started = performance.now();
   const ticks = knurl.tick(positions, gain);
@@ -160,6 +160,9 @@ const answers = {
     }
     if (device.client) {
       device.client.isHidden = isHidden;
+      if (isHidden) { // so it is when the tab is closed, after which nothing is sent
+        device.client.halt();
+      }
     }
   },
   survey: ({ bytes, name }) => ({ error: errorOf(() => knurl.withFile(bytes, name, module._web_survey)) }),
@@ -188,6 +191,9 @@ onmessage = ({ data }) => {
     device.client?.halt();
   }
   const answer = answers[data.kind](data);
+  if (!QUICK.includes(data.kind)) {
+    device.client?.resume();
+  }
   if (answer) {
     postMessage({ kind: "answer", to: data.kind, id: data.id, ...answer });
   }

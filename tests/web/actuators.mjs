@@ -1,4 +1,4 @@
-// Actuators of the page, with a gamepad that only notes what it is told, and Chromium's fake sound outputs: nothing was
+// Actuators of the page, with a gamepad that only notes its commands, and Chromium's fake sound outputs: nothing was
 // tried with real ones. SPDX-License-Identifier: MIT
 import assert from "node:assert/strict";
 import { FLAGS, chromium, executablePath, open, port, recorded } from "./harness.mjs";
@@ -10,7 +10,7 @@ function plugIn() {
   navigator.getGamepads = () => [null, { vibrationActuator }];
 }
 
-// In the page: notes what goes to an output's queue.
+// In the page: notes the samples for an output's queue.
 function listenIn() {
   globalThis.heard = [];
   globalThis.sinks = [];

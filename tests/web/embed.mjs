@@ -85,6 +85,22 @@ export const cases = {
       await tab.evaluate(readFileSync(join(page, "../web-work/page/node_modules/axe-core/axe.min.js"), "utf8"));
       const { violations } = await tab.evaluate(() => globalThis.axe.run("knurl-figure"));
       assert.deepEqual(violations.map(({ id, nodes }) => [id, nodes.map(({ html }) => html)]), []);
+      const alone = await tab.evaluate(async () => {
+        const { AT: at, Knurl } = await import("./index.js");
+        const knurl = await Knurl.create();
+        const { rows } = knurl.tick([0, 0, 0]); // without a scene
+        knurl.load(await (await fetch("plate_1d.glb")).arrayBuffer(), "plate_1d.glb");
+        let said = "";
+        try {
+          knurl.setDevice({ rate: 50 });
+        } catch ({ message }) {
+          said = message;
+        }
+        knurl.load(await (await fetch("plate_1d.glb")).arrayBuffer(), "plate_1d.glb"); // with the device before
+        return { force: [...rows.subarray(at.force, at.force + 3)], rate: knurl.rate, said };
+      });
+      assert.deepEqual([alone.force, alone.rate], [[0, 0, 0], 1000]);
+      assert.match(alone.said, /50/);
       await tab.screenshot({ path: join(tmp, "package.png") });
     });
   },

@@ -9,7 +9,7 @@ const MOST_N = 3.3; // of an Inverse3, for long
 const FAULT_S = 0.8; // after the connection
 const COLUMNS = ["t", "messages", "force", "greatest", "rise", "whileOff", "zeroSince"];
 
-// Runs use(port, log) with an emulated service; log(): what it was told last.
+// Runs use(port, log) with an emulated service; log(): its last line.
 async function withService(fault, use) {
   const emulator = join(dirname(tool), "tests/emulate_inverse3");
   const child = spawn(emulator, [fault, "sh", "-c", "echo PORT; cat >/dev/null"], { env: { ...process.env, KNURL_EMULATOR_LOG: "1" } });
@@ -112,9 +112,10 @@ export const cases = {
   "each fault of an Inverse3's messages takes the force away at once, and it ramps up again": () => client((sim, host) => {
     begin(sim);
     const faults = { "not JSON": "{", "no object": "7", "too long": JSON.stringify(answer(0.5)) + " ".repeat(65537), "no devices": { inverse3: [] }, "another": answer(0, { device_id: "0A11" }),
-      "no number": answer(null), "endless": JSON.stringify(answer(0.5)).replace("0.5", "1e999"),
+      "no number": answer(null), "a text": answer("0.5"), "no device": { inverse3: [null, { device_id: 7 }] },
+      "endless": JSON.stringify(answer(0.5)).replace("0.5", "1e999"),
       "unpowered": answer(0, { status: { power_supply: false } }), "uncalibrated": answer(0, { status: { calibrated: false } }),
-      "not ready": answer(0, { status: { ready: false } }) };
+      "not ready": answer(0, { status: { ready: false } }), "unpowered, as a text": answer(0, { status: { power_supply: "false" } }) };
     for (const [name, message] of Object.entries(faults)) {
       const before = sim.sent.length;
       sim.say(message);
@@ -130,7 +131,8 @@ export const cases = {
       assert.equal(sim.force().z, 1, name);
     }
     const troubles = sim.events.filter(([name]) => name === "trouble").map(([, why]) => why.split(":")[0]);
-    assert.deepEqual(troubles, ["its power supply is unplugged", "", "it is not calibrated", "", "it is not ready", ""]);
+    assert.deepEqual(troubles, ["its power supply is unplugged", "", "it is not calibrated", "", "it is not ready", "",
+      "its power supply is unplugged", ""]);
     host.wall = 3.4; // more than it may play
     sim.say(answer(0, {}), 1);
     assert.equal(sim.force().z, 0);
@@ -160,6 +162,16 @@ export const cases = {
     sim.timers[0]();
     assert.equal(sim.sent.length, before + 2, "again");
     begin(sim);
+    sim.client.halt();
+    sim.now += 1500; // a large model is loaded meanwhile
+    sim.client.resume();
+    sim.timers[0]();
+    assert.ok(!sim.isClosed, "the device was not silent");
+    assert.equal(sim.force().z, 0);
+    while (sim.client.unanswered > 1) {
+      sim.say(answer(0));
+    }
+    begin(sim);
     sim.client.isHidden = true;
     const rests = sim.events.length;
     for (let i = 0; i < 3; i++) {
@@ -177,7 +189,8 @@ export const cases = {
   "an Inverse3 that cannot be driven is refused in a sentence": async () => {
     for (const [message, words] of [["hello", /not the Haply Inverse Service/], [{ inverse3: [] }, /lists no Inverse3/],
       [hello({ config: { type: "inverse3" } }), /older than 3\.5/], [hello({ config: { type: "inverse9", preset: "" } }), /inverse9 is unknown/],
-      [hello({ device_id: 'x"}' }), /lists no Inverse3/]]) {
+      [hello({ device_id: 'x"}' }), /lists no Inverse3/], [hello({ device_id: undefined }), /lists no Inverse3/],
+      [{ inverse3: [null] }, /lists no Inverse3/]]) {
       await client((sim) => {
         sim.say(message);
         assert.match(sim.events.at(-1)[1], words);
@@ -208,12 +221,23 @@ export const cases = {
       document.dispatchEvent(new Event("visibilitychange"));
     });
     await until(() => log().force > 0, "a force again");
-    await drop(tab, Buffer.from("no model"), "broken.glb"); // what takes longer than 5 ms begins without a force
+    await drop(tab, Buffer.from("no model"), "broken.glb"); // a task of more than 5 ms begins without a force
     await until(() => log().force > 0, "a force again");
     await tab.click("#inverse3");
     await staysAt0(log, "disconnected");
     assert.match(await status(tab), /let go/);
   }),
+
+  "a tab that is left or closed tells an Inverse3 no force before its connection ends": async () => {
+    for (const leave of [(tab) => tab.goto("about:blank"), (tab) => tab.close({ runBeforeUnload: true })]) {
+      await withService("none", async (at, log) => {
+        const tab = await connect(at);
+        await until(() => log().force > 0.1, "a force");
+        await leave(tab);
+        await staysAt0(log, String(leave));
+      });
+    }
+  },
 
   async "after each fault of its service an Inverse3 has no force, and the page says why"() {
     const table = { unplugged: /does not answer/, unpowered: /power supply/, unhomed: /not calibrated/, unready: /not ready/,

@@ -1,4 +1,4 @@
-// <knurl-figure>: a hand strokes ridges, and beside it is what each method plays of them. SPDX-License-Identifier: MIT
+// <knurl-figure>: a hand strokes ridges; beside it a card shows how each method plays them. SPDX-License-Identifier: MIT
 import { drawCards } from "../cards.js";
 import { Hand } from "../hand.js";
 import { AT, METHODS, ROW } from "../rows.js";
@@ -51,14 +51,15 @@ export class KnurlFigure extends HTMLElement {
       const [knurl, bytes] = await Promise.all([this.knurl ?? Knurl.create(), model()]);
       knurl.load(bytes, "plate_1d.glb");
       this.knurl = knurl;
+      this.hand = new Hand((from, to) => this.knurl.cast(from, to));
+      this.attributeChangedCallback();
     } catch (problem) {
-      this.shadowRoot.querySelector("p").textContent = `Knurl: ${problem.message}`;
+      this.shadowRoot.querySelector("p[role=status]").textContent = `Knurl: ${problem.message}`;
       this.dispatchEvent(new ErrorEvent("error", { error: problem, message: problem.message }));
       return;
     }
-    this.hand = new Hand((from, to) => this.knurl.cast(from, to));
-    this.attributeChangedCallback();
     if (this.isConnected) {
+      cancelAnimationFrame(this.frame); // of a connection before
       this.frame = requestAnimationFrame((now) => this.draw(now));
     }
   }
