@@ -1,4 +1,4 @@
-/* What a device would find in a game, for the editor: warnings and the scale of ridges. SPDX-License-Identifier: MIT */
+/* A device's view of a surface, for the editor: warnings and the scale of ridges. SPDX-License-Identifier: MIT */
 #ifndef KNURL_GODOT_PREVIEW_H
 #define KNURL_GODOT_PREVIEW_H
 

@@ -99,7 +99,7 @@ static void get_triangle_count(void *self, const void *const *arguments, void *r
     memcpy(result, &count, sizeof count);
 }
 
-/* Metres for each unit of u and v, for what draws the ridges. */
+/* Metres for each unit of u and v, for the overlay, which draws the ridges. */
 static void get_uv_scale(void *self, const void *const *arguments, void *result) {
     surface *s = self;
     float found[2] = {0.0F, 0.0F};

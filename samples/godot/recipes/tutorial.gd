@@ -6,7 +6,7 @@ const STEPS: PackedStringArray = [
 	"Below it, a KnurlSurface with a KnurlGrating: ridges of 2 mm, drawn by KnurlOverlay.",
 	'A KnurlDevice: "fake" is a simulated hand, "auto" the first device that is connected.',
 	"grating.spatial_frequency = Vector2(250, 250): a grid, felt from the next tick on.",
-	"surface.ridges_passed: %d ridges. Felt at 1 kHz, told once a frame.",
+	"surface.ridges_passed: %d ridge%s. Felt at 1 kHz, told once a frame.",
 ]
 
 var step := 0
@@ -57,6 +57,8 @@ func count(_device: KnurlDevice, passed: int) -> void:
 
 func show_step() -> void:
 	var sentence: String = STEPS[step]
-	text.text = "%d of %d. %s" % [step + 1, STEPS.size(), sentence % ridges if "%d" in sentence else sentence]
+	if "%d" in sentence:
+		sentence %= [ridges, "" if ridges == 1 else "s"]
+	text.text = "%d of %d. %s" % [step + 1, STEPS.size(), sentence]
 	if step + 1 < STEPS.size():
 		text.text += "\nSpace: go on."

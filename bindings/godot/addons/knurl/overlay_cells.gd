@@ -5,7 +5,7 @@ extends RefCounted
 
 const PERIOD := 250  # ms between looks at the cells, which no signal tells of: 10 000 take 9 ms
 
-## What is drawn, as [method GridMap.get_meshes] has it: a Transform3D, a Mesh, and so on.
+## The meshes that are drawn, as [method GridMap.get_meshes] gives them: a Transform3D, a Mesh, and so on.
 var pairs: Array = []
 
 var _instances: Array[RID] = []
@@ -14,7 +14,7 @@ var _map: GridMap
 var _looked: int  # ms
 
 
-## Follows a map; null removes what is drawn. Returns true if its cells are others than before.
+## Follows a map; null removes what is drawn. Returns true if its cells have changed.
 func follow(map: GridMap) -> bool:
 	var now: int = Time.get_ticks_msec()
 	if map == _map and (map == null or now - _looked < PERIOD):

@@ -41,7 +41,7 @@ static func convert(text: String) -> String:
 ## Replaces strings of several lines, which may look like nodes, by their numbers.
 static func _take_strings(text: String, strings: PackedStringArray) -> String:
 	var parts: PackedStringArray = []
-	var from := 0  # of what is not in parts yet
+	var from := 0  # the first character that is not in parts yet
 	var begin: int = text.find('"')
 	while begin >= 0:
 		var end: int = text.find('"', begin + 1)

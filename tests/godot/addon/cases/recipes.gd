@@ -131,7 +131,10 @@ func tutorial() -> void:
 	checks.check(device.in_contact, "whose hand touches the surface")
 	await next("^4 of 5", "a grid")
 	checks.equal(device.get_touched_surface().grating.spatial_frequency, Vector2(250, 250), "the grating")
-	await next("^5 of 5.* [1-9][0-9]* ridges", "a signal")
+	await next("^5 of 5.* ([2-9]|[1-9][0-9]+) ridges", "a signal")
+	stage.ridges = 0
+	stage.count(device, 1)
+	await says(" 1 ridge[.]", "a ridge alone")
 	await dwell()
 	await end("")
 
