@@ -43,8 +43,10 @@ def repeated(test):
     def run(self):
         for _ in range(RUNS):
             faulthandler.dump_traceback_later(WATCHDOG_S, exit=True)
-            test(self)
-            faulthandler.cancel_dump_traceback_later()
+            try:
+                test(self)
+            finally: # a failed test does not end the others
+                faulthandler.cancel_dump_traceback_later()
     return run
 
 
