@@ -7,6 +7,7 @@
 #include "base/atomic.h"
 #include "base/base.h"
 #include "base/mailbox.h"
+#include "base/system.h"
 #include "device/dynlib.h"
 
 #include <windows.h> /* before winhttp.h, which needs it */
@@ -64,7 +65,7 @@ static winhttp_functions lib; /* null until loaded */
 
 /* --- on WinHTTP's threads --- */
 
-static void CALLBACK on_event(HINTERNET handle, DWORD_PTR context, DWORD what, void *info, DWORD size);
+static void CALLBACK on_event(HINTERNET handle, DWORD_PTR context, DWORD status, void *info, DWORD size);
 
 static void end(websocket *w, DWORD error) {
     knurl_store_relaxed(&w->last_error, (uint32_t)error);
@@ -116,14 +117,14 @@ static void upgrade(websocket *w, HINTERNET request) {
     receive_more(w);
 }
 
-static void CALLBACK on_event(HINTERNET handle, DWORD_PTR context, DWORD what, void *info, DWORD size) {
+static void CALLBACK on_event(HINTERNET handle, DWORD_PTR context, DWORD status, void *info, DWORD size) {
     websocket *w = (websocket *)context; /* NOLINT(performance-no-int-to-ptr): WinHTTP's type */
     (void)size;
     if (!w) {
         return;
     }
     HANDLE news = w->news; /* w may be freed once the last handle is closed */
-    switch (what) {
+    switch (status) {
     case WINHTTP_CALLBACK_STATUS_SENDREQUEST_COMPLETE:
         if (!lib.ReceiveResponse(handle, NULL)) {
             end(w, GetLastError());
@@ -187,23 +188,27 @@ static int send_message(void *self, const char *text, size_t size) {
     }
     memcpy(w->out, text, size);
     knurl_store_release(&w->is_sending, 1u);
-    return lib.WebSocketSend(w->handles[UPGRADED], WINHTTP_WEB_SOCKET_UTF8_MESSAGE_BUFFER_TYPE, w->out, (DWORD)size) ==
-           NO_ERROR;
+    const DWORD error =
+        lib.WebSocketSend(w->handles[UPGRADED], WINHTTP_WEB_SOCKET_UTF8_MESSAGE_BUFFER_TYPE, w->out, (DWORD)size);
+    if (error != NO_ERROR) { /* no callback will clear is_sending */
+        end(w, error);
+    }
+    return error == NO_ERROR;
 }
 
-/* Waits until *what is not 0, the connection is gone or the time is over. */
-static void wait_for(websocket *w, const uint32_t *what, DWORD ms) {
-    const ULONGLONG until = GetTickCount64() + ms;
-    ULONGLONG now = until - ms;
-    while (!knurl_load_acquire(what) && !knurl_load_acquire(&w->is_gone) && now < until) {
-        (void)WaitForSingleObject(w->news, (DWORD)(until - now));
-        now = GetTickCount64();
+/* Waits until *value is not 0, the connection is gone or the time is over. GetTickCount64() is too coarse: 16 ms. */
+static void wait_for(websocket *w, const uint32_t *value, int ms) {
+    const int64_t until = knurl_system_now_ns() + ms * INT64_C(1000000);
+    int64_t left = until - knurl_system_now_ns();
+    while (!knurl_load_acquire(value) && !knurl_load_acquire(&w->is_gone) && left > 0) {
+        (void)WaitForSingleObject(w->news, (DWORD)((left + 999999) / 1000000));
+        left = until - knurl_system_now_ns();
     }
 }
 
 static int receive(void *self, int milliseconds, knurl_inverse3_message *message) {
     websocket *w = self;
-    wait_for(w, &w->count, milliseconds > 0 ? (DWORD)milliseconds : 0);
+    wait_for(w, &w->count, milliseconds);
     const uint32_t count = __atomic_exchange_n(&w->count, 0, __ATOMIC_ACQ_REL);
     if (count == 0) {
         return knurl_load_acquire(&w->is_gone) ? -1 : 0;
@@ -217,11 +222,13 @@ static int receive(void *self, int milliseconds, knurl_inverse3_message *message
 /* To this machine only: a haptic loop does not tolerate a network's delays. */
 static int start(websocket *w, int port) {
     DWORD_PTR context = (DWORD_PTR)w;
+    DWORD off = WINHTTP_DISABLE_REDIRECTS;
     HINTERNET *h = w->handles;
     h[SESSION] = lib.Open(L"knurl", WINHTTP_ACCESS_TYPE_NO_PROXY, NULL, NULL, WINHTTP_FLAG_ASYNC);
     h[CONNECTION] = h[SESSION] ? lib.Connect(h[SESSION], L"127.0.0.1", (INTERNET_PORT)port, 0) : NULL;
     h[REQUEST] = h[CONNECTION] ? lib.OpenRequest(h[CONNECTION], L"GET", L"/", NULL, NULL, NULL, 0) : NULL;
     if (!h[REQUEST] || !lib.SetOption(h[REQUEST], WINHTTP_OPTION_CONTEXT_VALUE, &context, sizeof context) ||
+        !lib.SetOption(h[REQUEST], WINHTTP_OPTION_DISABLE_FEATURE, &off, sizeof off) ||
         lib.SetStatusCallback(h[REQUEST], on_event, WINHTTP_CALLBACK_FLAG_ALL_NOTIFICATIONS, 0) ==
             WINHTTP_INVALID_STATUS_CALLBACK) {
         return 0;
