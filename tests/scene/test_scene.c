@@ -82,9 +82,14 @@ TEST(a_long_name_is_cut_between_characters) {
         memcpy(given + i, "\xe2\x82\xac", 3); /* the sign of the euro */
     }
     parts.desc.name = given;
-    assert_int_equal(knurl_scene_get_surface_name(scene, add_surface(scene, &parts), name), KNURL_OK);
+    const knurl_surface_id id = add_surface(scene, &parts);
+    knurl_surface_id found = 0;
+    assert_int_equal(knurl_scene_get_surface_name(scene, id, name), KNURL_OK);
     assert_int_equal(strlen(name), 253);
     assert_memory_equal(name, given, 253);
+    assert_int_equal(knurl_scene_find_surface(scene, given, &found), KNURL_OK); /* by all of it */
+    assert_true(found == id);
+    CHECK_REFUSED(knurl_scene_find_surface(scene, name, &found), KNURL_ERROR_UNKNOWN, found);
     memset(given, 'b', 255);
     given[255] = 0;
     assert_int_equal(knurl_scene_get_surface_name(scene, add_surface(scene, &parts), name), KNURL_OK);

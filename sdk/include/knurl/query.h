@@ -15,8 +15,8 @@ KNURL_API uint32_t knurl_scene_get_surface_count(const knurl_scene *scene);
 /** The id of surface number `index`, 0 <= index < count, in the order of adding; else 0. [any thread but the haptic] */
 KNURL_API knurl_surface_id knurl_scene_get_surface(const knurl_scene *scene, uint32_t index);
 
-/** Finds a surface by name; if several have it, the one added first. Errors: KNURL_ERROR_UNKNOWN, with the existing
- * names. [any thread but the haptic] */
+/** Finds a surface by its whole name; if several have it, the one added first. Errors: KNURL_ERROR_UNKNOWN, with the
+ * existing names. [any thread but the haptic] */
 KNURL_API knurl_result knurl_scene_find_surface(const knurl_scene *scene, const char *name, knurl_surface_id *surface);
 
 /** Bytes of a surface's name as it is reported, with the final 0; longer names are cut between characters. */
