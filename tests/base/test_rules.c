@@ -1,4 +1,4 @@
-/* The headers' marks of threads: each rule broken ends the program with a sentence, and what is allowed does not.
+/* The headers' marks of threads: each rule broken ends the program with a sentence, and an allowed call does not.
  * SPDX-License-Identifier: MIT */
 #define _POSIX_C_SOURCE 200809L
 #include "support/idle_device.h"
@@ -13,7 +13,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* A scene and a device, and what to do once within a tick of the one or the start of the other. */
+/* A scene and a device, and a deed for once within a tick of the one or the start of the other. */
 typedef struct place {
     knurl_scene *scene;
     knurl_device *device;

@@ -148,7 +148,7 @@ typedef struct knurl_device_status {
     double exchange_ns_p99; /**< the same, 99th percentile */
     double orientation[4];  /**< of the last reading, as knurl_device_sample.orientation */
     double grip;            /**< the same, as knurl_device_sample.grip */
-    double battery;         /**< charge of its grip's battery, 0 to 1; 0: unknown, or it has none */
+    double battery;         /**< charge of its grip's battery, 0 to 1; 0: unknown, or no battery */
 } knurl_device_status;
 
 /** Fill in defaults; `size` is the caller's sizeof. [any thread] */

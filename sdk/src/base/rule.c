@@ -55,7 +55,7 @@ static void release(void) {
 
 void knurl_rule_enter(knurl_call *call, int rule, const void *object, uint32_t hip, const char *function) {
     call->function = function;
-    call->object = depth++ > 0 ? NULL : object; /* what the library calls itself keeps its own order */
+    call->object = depth++ > 0 ? NULL : object; /* calls within the library need no check */
     call->thread = &ticking;
     call->hip = hip;
     call->rule = rule;

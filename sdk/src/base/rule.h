@@ -10,7 +10,7 @@ enum {
     KNURL_RULE_GAME,       /* and one at a time for each object */
     KNURL_RULE_CONFIGURE,  /* and not while the caller's thread ticks the HIP */
     KNURL_RULE_END,        /* not during any other thread's call with the object */
-    KNURL_RULE_HAPTIC,     /* one at a time for each object or HIP; what it calls is within a tick */
+    KNURL_RULE_HAPTIC,     /* one at a time for each object or HIP; its callees are within a tick */
     KNURL_RULE_ONE         /* one at a time for each object; may be within a tick */
 };
 

@@ -10,8 +10,7 @@
 
 #include <stdlib.h>
 
-/* Numbers that a device plays: N along x, y, z, N m about them, N of a gripper. Drivers may read the first three alone.
- */
+/* Numbers that a device plays: N along x, y, z, N m about them, N of a gripper. A driver may read only the forces. */
 #define KNURL_FORCES 7
 
 /* A list of devices: counts all, stores as many as fit. */
@@ -77,7 +76,7 @@ struct knurl_device {
     uint32_t handle; /* KNURL_HANDLE_DEVICE, first */
     const knurl_driver *driver;
     double max_force;        /* N */
-    double max_torque;       /* N m: 0 if its driver plays none */
+    double max_torque;       /* N m; 0: its driver plays no torques */
     double max_grip;         /* N: the same */
     double torque[4];        /* N m, N: for the next write, which clears it; of the haptic thread */
     double max_speed;        /* m/s: faster than any hand; 0 if positions may jump (the fake device plays traces) */

@@ -72,7 +72,7 @@ static inline void knurl_passivity_follow(knurl_passivity *p) {
     p->depth = 0.0;
 }
 
-/* 1 if it matters what the texture does: not in a swing that is too long already, as at rest. */
+/* 1 if the texture matters: not in a swing that is too long already, as at rest. */
 static inline int knurl_passivity_counts(const knurl_passivity *p) {
     return p->busy && p->ticks <= p->longest;
 }

@@ -10,7 +10,7 @@ typedef struct knurl_felt_part {
     double push[3]; /* m, shape's frame: of the displacement from the HIP to the proxy */
 } knurl_felt_part;
 
-/* Such parts of one mesh, the strongest first; none if the mesh alone holds the HIP. */
+/* Such parts of one mesh, the strongest first; 0: the mesh alone holds the HIP. */
 typedef struct knurl_felt_parts {
     uint32_t count;
     knurl_felt_part list[3];

@@ -51,7 +51,7 @@ typedef struct inverse3 {
     knurl_link link;
     const knurl_inverse3_service *service;
     knurl_inverse3_channel channel;
-    knurl_inverse3_channel events; /* self: null if the service has none */
+    knurl_inverse3_channel events; /* self: null without a connection */
     int port;
     char id[KNURL_INVERSE3_ID_ROOM];   /* "": the first */
     char grip[KNURL_INVERSE3_ID_ROOM]; /* the handle's; "": the first */

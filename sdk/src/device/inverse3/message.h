@@ -52,7 +52,7 @@ int knurl_inverse3_read_brake(const char *text, size_t size, const char *id);
 /* The entry with this id, or the first if id is ""; null if there is no such entry. */
 const knurl_inverse3_entry *knurl_inverse3_find(const knurl_inverse3_state *state, const char *id);
 
-/* The handle with this id; or, if id is "", the first that tells its orientation. Zeros if there is none. Its
+/* The handle with this id; or, if id is "", the first that tells its orientation. Zeros without a match. Its
  * orientation is in Knurl's axes, and of unit length or zeros. */
 void knurl_inverse3_find_grip(const knurl_inverse3_state *state, const char *id, knurl_inverse3_grip *found);
 
@@ -61,8 +61,8 @@ void knurl_inverse3_to_knurl(const double from[3], double to[3]);
 void knurl_inverse3_from_knurl(const double from[3], double to[3]);
 
 /* Writes the command for a device to play this force (N, Knurl's axes, each component below 1000), with a decimal point
- * in every locale. configuration: "", or also sets up the session: knurl_inverse3_configuration(). Returns its length.
- */
+ * in every locale. configuration: knurl_inverse3_configuration() to set up the session too, else "". Returns its
+ * length. */
 size_t knurl_inverse3_command(char text[KNURL_INVERSE3_COMMAND], const char *id, const double force[3],
                               const char *configuration);
 
