@@ -12,9 +12,11 @@ import os
 import pathlib
 import shutil
 import signal
+import socket
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import unittest
 
@@ -242,6 +244,29 @@ class Service(Home):
         done = Run(self.home, ["wine", self.exe, "run", "plate_1d.glb", "--device", "inverse3:?port=9"]).end()
         self.assertEqual(done.code, 1)
         self.assertIn(b"does not answer at localhost:9", done.err)
+
+    def test_a_redirect_is_not_followed(self):
+        """As test_inverse3_elsewhere.c has it for the other systems."""
+        with socket.create_server(("127.0.0.1", 0)) as service, socket.create_server(("127.0.0.1", 0)) as elsewhere:
+            elsewhere.settimeout(0.5)
+            answer = f"HTTP/1.1 302 Found\r\nLocation: http://127.0.0.1:{elsewhere.getsockname()[1]}/\r\n" \
+                "Content-Length: 0\r\n\r\n"
+
+            def redirect():
+                client, _ = service.accept()
+                with client:
+                    client.recv(4096)
+                    client.sendall(answer.encode())
+                    client.recv(4096)
+
+            thread = threading.Thread(target=redirect, daemon=True)
+            thread.start()
+            done = Run(self.home, ["wine", self.exe, "run", "plate_1d.glb", "--device",
+                                   f"inverse3:?port={service.getsockname()[1]}"]).end()
+            thread.join(10)
+            self.assertFalse(thread.is_alive())  # it was asked, and the client has left
+            self.assertEqual(done.code, 1)
+            self.assertRaises(TimeoutError, elsewhere.accept)
 
 
 if __name__ == "__main__":
