@@ -17,8 +17,8 @@ typedef struct knurl_device_functions {
                              nothing zeroes the force while it hangs */
     void *user;
     /** Fills in the properties; max_force must be set. `info` has these defaults: heat_time 60 s, INFINITY in
-     * continuous_force and max_stiffness, 0 in all others. Required. Do not call knurl_device_info_init().
-     * [any thread] */
+     * continuous_force and max_stiffness, 0 in all others. max_torque and max_grip stay 0: `write` gets no torque.
+     * Required. Do not call knurl_device_info_init(). [any thread] */
     void (*get_info)(void *user, knurl_device_info *info);
     /** Prepares for this rate of reads; or null. Called before the first read, and, if blocking, also later while the
      * I/O thread is reading. [game thread] */

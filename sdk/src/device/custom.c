@@ -67,6 +67,7 @@ static void custom_close(knurl_device *device) {
 static void custom_info(const knurl_device *device, knurl_device_info *info) {
     const knurl_device_functions *f = &((const custom *)(const void *)device)->functions;
     f->get_info(f->user, info);
+    info->max_torque = info->max_grip = 0.0; /* `write` gets forces alone */
     info->native_rate = f->blocking && info->native_rate == 0.0 ? 1000.0 : info->native_rate;
 }
 

@@ -202,6 +202,8 @@ static void tell_much(void *user, knurl_device_info *info) {
     info->continuous_force = 0.5;
     info->delay = 3.0;
     info->workspace_min[2] = -0.25;
+    info->max_torque = 0.1;
+    info->max_grip = 1.0;
 }
 
 TEST(the_owners_description_is_passed_on) {
@@ -217,6 +219,8 @@ TEST(the_owners_description_is_passed_on) {
     CHECK_SAME(info.continuous_force, 0.5L);
     CHECK_SAME(info.delay, 3.0L);
     CHECK_SAME(info.workspace_min[2], -0.25L);
+    CHECK_SAME(info.max_torque, 0.0L); /* `write` gets no torque */
+    CHECK_SAME(info.max_grip, 0.0L);
     assert_int_equal(info.struct_size, sizeof info);
 }
 
