@@ -151,6 +151,9 @@ static int check(const verify *v, const wishes *w, const char *stray) {
     if (verify_is_empty(v)) {
         return tool_error(TOOL_USAGE, "verify: --only and --skip leave no step");
     }
+    if (w->out && (!w->out[0] || strchr("/\\", w->out[strlen(w->out) - 1]))) {
+        return tool_error(TOOL_USAGE, "verify: --out: expected a file's name without its end, found '%s'", w->out);
+    }
     if (v->simulated && strncmp(w->uri, "fake", 4) != 0) {
         return tool_error(TOOL_USAGE, "verify: --simulate takes a fake device, found --device %s", w->uri);
     }

@@ -112,6 +112,7 @@ TEST(wrong_arguments_are_refused_and_nothing_is_written) {
     } cases[] = {{{"--only", "rate,wals"}, 2, "unknown step 'wals'"},
                  {{"--skip=,"}, 2, "unknown step ''"},
                  {{"--only=rate", "--skip=rate"}, 2, "leave no step"},
+                 {{"--out=reports/"}, 2, "expected a file's name without its end, found 'reports/'"},
                  {{"--simulate", long_uri}, 2, "the URI is too long"},
                  {{"--simulate", "--device=touch"}, 2, "takes a fake device, found --device touch"},
                  {{"--device=fake:?nothing=1"}, 2, "expected key=value"},
