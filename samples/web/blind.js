@@ -24,6 +24,13 @@ export function report(trials, [one, other], what) {
     ...trials.map(({ a, b, preferred }, i) => `${i + 1},${NAMES[a]},${NAMES[b]},${NAMES[preferred]}`)].join("\n");
 }
 
+// The surface that is stroked, and its settings.
+function compared() {
+  const [fsx, fsy, amplitude, stiffness, friction] = surface()?.feel ?? [];
+  return `${scene.name}, ${surface()?.name}: ${fsx} and ${fsy} ridges/m, ${1000 * amplitude} mm, ${stiffness} N/m, friction ${
+    friction}, ${$("rate").value} Hz`;
+}
+
 export class Blind {
   // choose(): a method has been set.
   constructor(choose) {
@@ -53,7 +60,7 @@ export class Blind {
       tell("Choose two different methods.", true);
       return;
     }
-    Object.assign(this, { two, trials: [], before: method() });
+    Object.assign(this, { two, trials: [], before: method(), what: compared() });
     this.show(true);
     this.next();
   }
@@ -82,13 +89,20 @@ export class Blind {
   prefer(which) {
     const [a, b] = this.order;
     this.trials.push({ a, b, preferred: this.order[which] });
+    this.what = compared();
     this.next();
   }
 
+  // Another scene was opened: trials with it would be of another surface.
+  opened() {
+    if (this.isOn) {
+      this.end();
+      tell("The blind comparison ended, because another scene was opened.");
+    }
+  }
+
   end() {
-    const [fsx, fsy, amplitude, stiffness, friction] = surface()?.feel ?? [];
-    $("blind-result").textContent = report(this.trials, this.two, `${scene.name}, ${surface()?.name}: ${fsx} and ${fsy} ridges/m, ${
-      1000 * amplitude} mm, ${stiffness} N/m, friction ${friction}, ${$("rate").value} Hz`);
+    $("blind-result").textContent = report(this.trials, this.two, this.what);
     this.show(false);
     setMethod(this.before);
     this.choose();

@@ -173,11 +173,12 @@ function simulate() {
     forget(rate);
     await link.opened(name);
     settings.move();
+    blind.opened();
   });
   const settings = new Settings(simulation, (name) => files.openDemo(name), setRate);
   const link = new Link(settings);
   listen((file) => (/\.csv$/i.test(file.name) ? recording.open(file) : files.openFile(file)));
-  new Blind(() => settings.setMethods());
+  const blind = new Blind(() => settings.setMethods());
   actuators = new Actuators(simulation, () => settings.rest());
   new Pointer(simulation, { taken: () => press("ghost", false), clicked: (event) => files.give(scene.view.meshAt(event)) });
   link.follow().then(ready);

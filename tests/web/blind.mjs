@@ -46,6 +46,19 @@ export const cases = {
     assert.ok(await tab.isVisible("#methods"));
   },
 
+  async "a blind comparison ends when another scene is opened, with the result so far"() {
+    const tab = await open();
+    await tab.evaluate(() => { document.getElementById("blind").open = true; });
+    await tab.click("#blind-begin");
+    await tab.click("#prefer-a");
+    await tab.setInputFiles("#file", join(root, "assets/grid_2d.glb"));
+    await tab.waitForFunction(() => /comparison ended/.test(document.querySelector("#status").textContent));
+    const lines = (await tab.textContent("#blind-result")).split("\n");
+    assert.match(lines[0], /of 1 trials\.$/);
+    assert.match(lines[2], /^plate_1d\.glb, bar 1 mm:/);
+    assert.ok(await tab.isVisible("#methods"));
+  },
+
   async "the probability is the binomial test's"() {
     globalThis.document ??= { querySelectorAll: () => [] }; // its module's other half is for a page
     const { chance } = await import(join(root, "samples/web/blind.js"));
