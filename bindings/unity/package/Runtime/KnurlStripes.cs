@@ -49,16 +49,21 @@ namespace Knurl
             set { groove = value; }
         }
 
-        /// <summary>Each pipeline calls one of the two for every camera: the Scene view's too, whenever that is drawn.</summary>
+        /// <summary>Each pipeline calls one of the two for every camera: the Scene view's too, whenever that is drawn. The
+        /// built-in pipeline, which calls onPreCull, ends with Unity 7.</summary>
         void OnEnable()
         {
+#if !UNITY_7000_0_OR_NEWER
             Camera.onPreCull += Draw;
+#endif
             RenderPipelineManager.beginCameraRendering += Draw;
         }
 
         void OnDisable()
         {
+#if !UNITY_7000_0_OR_NEWER
             Camera.onPreCull -= Draw;
+#endif
             RenderPipelineManager.beginCameraRendering -= Draw;
         }
 
@@ -85,8 +90,8 @@ namespace Knurl
             }
             material.SetColor("_Ridge", ridge);
             material.SetColor("_Groove", groove);
-            Graphics.DrawMesh(overlay, transform.localToWorldMatrix, material, gameObject.layer, eye, 0, null,
-                ShadowCastingMode.Off, false);
+            var how = new RenderParams(material) { layer = gameObject.layer, camera = eye }; // without shadows
+            Graphics.RenderMesh(how, overlay, 0, transform.localToWorldMatrix);
         }
 
         bool FindMaterial()

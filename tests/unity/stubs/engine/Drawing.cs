@@ -17,6 +17,15 @@ namespace UnityEngine
         public void SetColor(string name, Color value) { Colors[name] = value; }
     }
 
+    /// Faithful: no shadows, as after Unity's constructor.
+    public struct RenderParams
+    {
+        public RenderParams(Material mat) : this() { material = mat; }
+        public Material material { get; set; }
+        public int layer { get; set; }
+        public Camera camera { get; set; }
+    }
+
     /// Records each drawn mesh.
     public static class Graphics
     {
@@ -26,14 +35,18 @@ namespace UnityEngine
             public Matrix4x4 Matrix;
             public Material Material;
             public Camera Camera;
+            public int Layer;
         }
 
         public static readonly List<Drawing> Drawn = new List<Drawing>();
 
-        public static void DrawMesh(Mesh mesh, Matrix4x4 matrix, Material material, int layer, Camera camera, int submeshIndex,
-            object properties, Rendering.ShadowCastingMode castShadows, bool receiveShadows)
+        /// In Unity, the first is an `in` parameter and there is an optional fifth.
+        public static void RenderMesh(RenderParams rparams, Mesh mesh, int submeshIndex, Matrix4x4 objectToWorld)
         {
-            Drawn.Add(new Drawing { Mesh = mesh, Matrix = matrix, Material = material, Camera = camera });
+            Drawn.Add(new Drawing
+            {
+                Mesh = mesh, Matrix = objectToWorld, Material = rparams.material, Camera = rparams.camera, Layer = rparams.layer
+            });
         }
     }
 
@@ -59,8 +72,6 @@ namespace UnityEngine
         {
             public virtual Shader defaultShader { get { return null; } }
         }
-
-        public enum ShadowCastingMode { Off, On }
 
         public struct ScriptableRenderContext { }
 
@@ -162,7 +173,7 @@ namespace UnityEngine
             set { Living(); box = value; }
         }
 
-        public bool isPartOfStaticBatch { get; internal set; }
+        public bool isPartOfStaticBatch { get; set; } // read-only in Unity
     }
 
     public class MeshRenderer : Renderer { }
