@@ -3,12 +3,13 @@
 # warnings as errors. usage: build.sh FOLDER
 # FOLDER/            the package as an editor compiles it, with tests
 # FOLDER/player/     the package as in a player: without UNITY_EDITOR
+# FOLDER/newest/     as Unity 7 compiles it
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
 [ $# -eq 1 ] || { echo "usage: build.sh FOLDER" >&2; exit 2; }
 command -v mcs >/dev/null || { echo "build.sh: no mcs: apt-get install mono-mcs mono-runtime libmono-cil-dev" >&2; exit 1; }
-mkdir -p "$1/player" "$1/plain"
+mkdir -p "$1/player" "$1/plain" "$1/newest"
 out=$(cd "$1" && pwd)
 package=${KNURL_UNITY_PACKAGE:-$root/bindings/unity/package} # one that was packed, or the sources
 if [ ! -e "$package/package.json" ]; then
@@ -36,6 +37,7 @@ compile UnityEngine.dll "$out" -target:library -r:System.Web.Extensions.dll -- "
 compile UnityEditor.dll "$out" -target:library -r:UnityEngine.dll -- "$here"/stubs/editor/*.cs
 cp "$out"/UnityEngine.dll "$out/player/"
 cp "$out"/Unity*.dll "$out/plain/"
+cp "$out"/Unity*.dll "$out/newest/"
 
 # Documents are checked as well: a public member without one is a warning.
 compile Knurl.Haptics.dll "$out" -target:library "${editor[@]}" -r:UnityEngine.dll -r:UnityEditor.dll \
@@ -55,6 +57,9 @@ while read -r shown; do # the examples in its README; serialised fields are not 
 done < <(/usr/bin/python3 -B "$root/tests/docs/snippets.py" write csharp "$out" bindings/unity)
 compile Knurl.Haptics.Editor.dll "$out" -target:library "${editor[@]}" -r:UnityEngine.dll -r:UnityEditor.dll \
     -r:Knurl.Haptics.dll -- "$package"/Editor/**/*.cs
+newest=("${editor[@]}" -define:UNITY_7000_0_OR_NEWER -r:UnityEngine.dll -r:UnityEditor.dll)
+compile Knurl.Haptics.dll "$out/newest" -target:library "${newest[@]}" -- "$package"/Runtime/**/*.cs
+compile Knurl.Haptics.Editor.dll "$out/newest" -target:library "${newest[@]}" -r:Knurl.Haptics.dll -- "$package"/Editor/**/*.cs
 # The optional assemblies for importers, with stand-ins for these.
 importers=()
 if [ -d "$package/Importers" ]; then

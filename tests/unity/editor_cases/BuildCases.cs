@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
+using System;
+using System.IO;
 using System.Linq;
+using System.Reflection;
 using System.Text.RegularExpressions;
 using Knurl.Cases;
 using Knurl.Editing;
 using NUnit.Framework;
 using UnityEditor;
+using UnityEditor.AssetImporters;
+using UnityEditor.Build.Content;
 using UnityEditor.Build.Reporting;
 using UnityEditor.SceneManagement;
 using UnityEngine;
@@ -46,7 +51,7 @@ namespace Knurl.Tests
         static void Process(BuildReport report, params KnurlSurface[] surfaces)
         {
             GameObject[] roots = surfaces.Select(surface => surface.gameObject).ToArray();
-            new BuildCheck().OnProcessScene(new Scene { Path = "Assets/a.unity", Roots = roots }, report);
+            new SceneStep().OnProcessScene(new Scene { Path = "Assets/a.unity", Roots = roots }, report);
         }
 
         static Mesh MeshOf(KnurlSurface surface)
@@ -80,6 +85,38 @@ namespace Knurl.Tests
             GameObjectUtility.Flags[surface.gameObject] = StaticEditorFlags.BatchingStatic;
             Process(new BuildReport(), surface);
             surface.GetComponent<MeshFilter>().sharedMesh = Made(new Mesh { name = "Combined Mesh" });
+            IsFelt(surface);
+        }
+
+        [Test]
+        public void A_mesh_that_was_merged_before_is_told_and_not_stored()
+        {
+            KnurlSurface surface = MakeShown(ShaderPropertyType.Texture);
+            GameObjectUtility.Flags[surface.gameObject] = StaticEditorFlags.BatchingStatic;
+            surface.GetComponent<Renderer>().isPartOfStaticBatch = true;
+            LogAssert.Expect(LogType.Warning, new Regex("Assets/a.unity: the surface 'Plate'.*merged.*clear Batching Static"));
+            Process(new BuildReport(), surface);
+            Assert.That(surface.Geometry == null);
+        }
+
+        /// <summary>The step as Unity 7 compiles it: a postprocessor, which other postprocessors precede or follow by
+        /// order.</summary>
+        [Test]
+        public void In_unity_7_geometry_is_stored_before_other_postprocessors_and_again_if_the_mesh_changes()
+        {
+            string file = Path.Combine(Environment.GetEnvironmentVariable("KNURL_TEST_FOLDER"), "newest/Knurl.Haptics.Editor.dll");
+            Type type = Assembly.Load(File.ReadAllBytes(file)).GetType("Knurl.Editing.SceneStep", true);
+            var step = (AssetPostprocessor)Activator.CreateInstance(type);
+            step.context = new AssetImportContext();
+            KnurlSurface surface = MakeShown(ShaderPropertyType.Texture);
+            MeshOf(surface).UploadMeshData(true);
+            AssetDatabase.Assets["Assets/plate.fbx"] = MeshOf(surface);
+            var scene = new Scene { Path = "Assets/a.unity", Roots = new[] { surface.gameObject } };
+            type.GetMethod("OnProcessScene", BindingFlags.Instance | BindingFlags.NonPublic)
+                .Invoke(step, new object[] { scene, new SceneImportContext(ProcessSceneMode.PlayerBuild) });
+            AssetDatabase.Assets.Remove("Assets/plate.fbx");
+            Assert.Less(step.GetPostprocessOrder(), 0, "Unity's own has 0");
+            CollectionAssert.AreEqual(new[] { "Assets/plate.fbx" }, step.context.Dependencies);
             IsFelt(surface);
         }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+using System;
 using System.Collections.Generic;
 using System.Linq;
 using UnityEditor;
@@ -13,12 +14,14 @@ namespace Knurl.Editing
     /// <summary>Stores the geometry of a scene's surfaces that would not be felt in a player, or differently: meshes that are
     /// not readable or merged by static batching, and UVs and tangents that Optimize Mesh Data removes because no material's
     /// shader uses them, although a grating's x follows them. Warns of such surfaces in prefabs.</summary>
-    internal sealed class BuildCheck : IPreprocessBuildWithReport, IProcessSceneWithReport
+    internal sealed class BuildCheck : IPreprocessBuildWithReport
     {
         /// <summary>Before Unity's own steps, which have 0: static batching merges meshes.</summary>
+        internal const int Order = -1000;
+
         public int callbackOrder
         {
-            get { return -1000; }
+            get { return Order; }
         }
 
         public void OnPreprocessBuild(BuildReport report)
@@ -42,21 +45,24 @@ namespace Knurl.Editing
             }
         }
 
-        /// <summary>report: null if a scene is only played in the editor, where nothing is stripped.</summary>
-        public void OnProcessScene(Scene scene, BuildReport report)
+        /// <summary>isBuild: false if a scene is only played in the editor, where nothing is stripped.</summary>
+        internal static void Store(Scene scene, bool isBuild)
         {
             var stored = new Dictionary<Mesh, KnurlGeometry>(); // of a mesh that several surfaces show
             foreach (KnurlSurface surface in SurfacesOf(scene.GetRootGameObjects()))
             {
                 Mesh mesh = surface.GetComponent<MeshFilter>().sharedMesh;
                 bool isStored = surface.Geometry != null; // by a prefab: the mesh may have changed since
-                if (mesh == null || (!isStored && FaultOf(surface, report != null) == null && !IsBatched(surface)))
+                if (mesh == null || (!isStored && FaultOf(surface, isBuild) == null && !IsBatched(surface)))
                 {
                     continue;
                 }
+                string fault = IsMerged(surface) ? "static batching has merged its mesh before Knurl could store it: clear "
+                    + "Batching Static, or press Store geometry in its prefab" : "its mesh '" + mesh.name
+                    + "' has no triangles that can be read";
                 if (!stored.ContainsKey(mesh))
                 {
-                    stored.Add(mesh, KnurlGeometry.Of(mesh));
+                    stored.Add(mesh, IsMerged(surface) ? null : KnurlGeometry.Of(mesh));
                 }
                 if (stored[mesh] != null)
                 {
@@ -64,15 +70,30 @@ namespace Knurl.Editing
                 }
                 else if (!isStored)
                 {
-                    Debug.LogWarning("Knurl: " + scene.path + ": the surface '" + surface.name + "' is not felt: its mesh '"
-                        + mesh.name + "' has no triangles that can be read", surface);
+                    Debug.LogWarning("Knurl: " + scene.path + ": the surface '" + surface.name + "' is not felt: " + fault,
+                        surface);
                 }
             }
+        }
+
+        /// <summary>The files of a scene's meshes: what is stored changes with them.</summary>
+        internal static IEnumerable<string> FilesOf(Scene scene)
+        {
+            return SurfacesOf(scene.GetRootGameObjects())
+                .Select(surface => AssetDatabase.GetAssetPath(surface.GetComponent<MeshFilter>().sharedMesh))
+                .Where(path => path.StartsWith("Assets/", StringComparison.Ordinal)
+                    || path.StartsWith("Packages/", StringComparison.Ordinal)).Distinct();
         }
 
         static IEnumerable<KnurlSurface> SurfacesOf(IEnumerable<GameObject> roots)
         {
             return roots.SelectMany(root => root.GetComponentsInChildren<KnurlSurface>(true));
+        }
+
+        static bool IsMerged(KnurlSurface surface)
+        {
+            var drawn = surface.GetComponent<Renderer>();
+            return drawn != null && drawn.isPartOfStaticBatch;
         }
 
         static bool IsBatched(KnurlSurface surface)

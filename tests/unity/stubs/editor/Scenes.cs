@@ -231,6 +231,18 @@ namespace UnityEditor
         {
             public sealed class BuildReport : UnityEngine.Object { }
         }
+
+        /// Of Unity 6.7 and later.
+        namespace Content
+        {
+            public enum ProcessSceneMode { PlayerBuild, PlayMode }
+
+            public struct SceneImportContext
+            {
+                public SceneImportContext(ProcessSceneMode reason) { loadingReason = reason; }
+                public ProcessSceneMode loadingReason { get; }
+            }
+        }
     }
 
     public static class EditorPrefs
