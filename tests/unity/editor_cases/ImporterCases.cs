@@ -55,6 +55,7 @@ namespace Knurl.Tests
         public void SetUp()
         {
             context.Added.Clear();
+            context.Dependencies.Clear();
             PrefabUtility.Sources.Clear();
         }
 
@@ -73,20 +74,31 @@ namespace Knurl.Tests
                 .Invoke(processor, null);
         }
 
+        void PreprocessTagged()
+        {
+            using (var files = new GltfFiles())
+            {
+                Preprocess(files.Write("model.gltf", "Plate", GltfFiles.Tag(1000)));
+            }
+        }
+
         /// <summary>A node with a mesh of one primitive, imported by UnityGLTF.</summary>
-        KnurlSurface ByUnityGltf(string node, string mesh, string material, bool isDoubleSided = false)
+        KnurlSurface ByUnityGltf(string node, string mesh, string material, bool isDoubleSided = false, int instances = 0)
         {
             var root = new GLTFRoot();
             root.Materials.Add(new GLTFMaterial { Extras = Json(material), DoubleSided = isDoubleSided });
             var primitive = new MeshPrimitive { Material = new MaterialId { Id = 0, Root = root } };
             root.Meshes.Add(new GLTFMesh { Name = "Mesh", Extras = Json(mesh) });
             root.Meshes[0].Primitives = new[] { primitive }.ToList();
-            root.Nodes.Add(new Node { Name = "Plate", Extras = Json(node), Mesh = new MeshId { Id = 0, Root = root } });
+            root.Nodes.Add(new Node
+            {
+                Name = "Plate", Extras = Json(node), Mesh = new MeshId { Id = 0, Root = root }, Instances = instances
+            });
             root.Nodes.Add(new Node { Name = "Empty", Extras = Json(node) });
             var import = new GLTFImportContext();
             import.Plugins.Add(ScriptableObject.CreateInstance<KnurlTagsImport>().CreateInstance(import));
             made = import.Import(root);
-            return made.GetComponentsInChildren<KnurlSurface>(true).SingleOrDefault();
+            return made.GetComponentsInChildren<KnurlSurface>(true).FirstOrDefault();
         }
 
         [TestCase("node")]
@@ -100,6 +112,41 @@ namespace Knurl.Tests
             Assert.AreEqual(new Vector2(1000f, 0f), surface.Grating.SpatialFrequency);
             Assert.AreEqual(Vector3.zero, surface.Axis);
             Assert.That(!surface.BoxCoordinates && !surface.DoubleSided);
+        }
+
+        /// <summary>EXT_mesh_gpu_instancing: UnityGLTF makes an object for each instance, and tells of the node alone.</summary>
+        [Test]
+        public void Each_of_unitygltfs_instances_is_felt_with_one_grating()
+        {
+            PreprocessTagged();
+            ByUnityGltf(With(""), null, null, false, 3);
+            IsFeltThrice("Instance 0", "Instance 1", "Instance 2");
+        }
+
+        void IsFeltThrice(params string[] names)
+        {
+            KnurlSurface[] surfaces = made.GetComponentsInChildren<KnurlSurface>(true);
+            CollectionAssert.AreEquivalent(names, surfaces.Select(surface => surface.name));
+            Assert.AreEqual(1, surfaces.Select(surface => surface.Grating).Distinct().Count());
+            Assert.AreSame(surfaces[0].Grating, context.Added.Values.Single());
+            Assert.AreEqual(new Vector2(1000f, 0f), surfaces[0].Grating.SpatialFrequency);
+        }
+
+        /// <summary>The same of glTFast, whose instances are children of the node's object; a child node stays as it
+        /// is.</summary>
+        [TestCase(true)]
+        [TestCase(false)]
+        public void Each_of_gltfasts_instances_is_felt_with_one_grating(bool byMaterial)
+        {
+            PreprocessTagged();
+            FastNewtonsoft.Root root = FastRoot("knurl", "{\"version\": 1, \"spatial_frequency\": 1000, \"amplitude\": 0.0002, "
+                + "\"stiffness\": 400}");
+            FastNewtonsoft.UnclassifiedData extras = root.materials[0].extras;
+            root.materials[0].extras = byMaterial ? extras : null;
+            root.nodes[0].extras = byMaterial ? null : extras;
+            root.nodes[0].Instances = 3;
+            made = new GltfImportBase<FastNewtonsoft.Root>(root).Instantiate();
+            IsFeltThrice("Mesh_i0", "Mesh_i1", "Mesh_i2");
         }
 
         [Test]
@@ -133,19 +180,19 @@ namespace Knurl.Tests
         [Test]
         public void A_wrong_tag_is_a_warning_with_file_object_and_key()
         {
-            Preprocess("Assets/model.glb");
-            LogAssert.Expect(LogType.Warning, new Regex("Assets/model.glb: node 'Plate'.*stiffness"));
+            PreprocessTagged();
+            LogAssert.Expect(LogType.Warning, new Regex("Assets/KnurlEditorTests/model.gltf: node 'Plate'.*stiffness"));
             Assert.That(ByUnityGltf(With("").Replace("400", "-400"), null, null) == null);
         }
 
         [Test]
         public void In_the_editor_gratings_are_part_of_the_file_and_keep_their_identifiers()
         {
-            Preprocess("Assets/model.glb");
+            PreprocessTagged();
             KnurlGrating first = ByUnityGltf(With(""), null, null).Grating;
             Assert.AreSame(first, context.Added["Knurl Scene/Plate"]);
             SetUp();
-            Preprocess("Assets/model.glb");
+            PreprocessTagged();
             ByUnityGltf(Flat, null, null); // exported again, with other values
             Assert.AreEqual(500f, ((KnurlGrating)context.Added["Knurl Scene/Plate"]).SpatialFrequency.x);
         }
@@ -218,6 +265,43 @@ namespace Knurl.Tests
                 Postprocess(new[] { path }, new string[0]);
                 Assert.That(!AssetDatabase.IsValidFolder(path + " Gratings"));
                 AssetDatabase.Assets.Remove(path);
+            }
+        }
+
+        /// <summary>A custom dependency of files with tags, and of no others.</summary>
+        [Test]
+        public void Files_with_tags_depend_on_the_packages_version_and_on_the_importers_it_has_a_part_for()
+        {
+            EditorApplication.Load(typeof(TagImporter).Assembly);
+            Assert.AreEqual(Hash128.Compute(TagImporter.Basis(new[] { "Knurl.Haptics.UnityGLTF", "Knurl.Haptics.glTFast" })),
+                AssetDatabase.Dependencies[TagImporter.Dependency], "both are loaded in this test");
+            string[] values = { TagImporter.Basis(new string[0]), TagImporter.Basis(new[] { "Knurl.Haptics.UnityGLTF", "UnityGLTF" }),
+                TagImporter.Basis(new[] { "Knurl.Haptics.glTFast" }) };
+            CollectionAssert.AllItemsAreUnique(values);
+            Assert.That(values.All(value => value.StartsWith(NativeMethods.Version + " ")));
+            using (var files = new GltfFiles())
+            {
+                Preprocess(files.Write("bare.gltf", "Plate", ""));
+                CollectionAssert.IsEmpty(context.Dependencies);
+                Preprocess(files.Write("model.gltf", "Plate", GltfFiles.Tag(1000)));
+                CollectionAssert.AreEqual(new[] { TagImporter.Dependency }, context.Dependencies);
+            }
+        }
+
+        [Test]
+        public void Tagged_files_that_were_there_before_the_package_are_imported_once()
+        {
+            EditorUserSettings.Values.Clear();
+            AssetDatabase.Imported.Clear();
+            using (var files = new GltfFiles())
+            {
+                string tagged = files.Write("model.gltf", "Plate", GltfFiles.Tag(1000)), bare = files.Write("bare.gltf", "Plate", "");
+                AssetDatabase.Assets[tagged] = AssetDatabase.Assets[bare] = made = new GameObject("Plate");
+                TagImporter.ImportOnce();
+                TagImporter.ImportOnce();
+                CollectionAssert.AreEqual(new[] { tagged }, AssetDatabase.Imported);
+                AssetDatabase.Assets.Remove(tagged);
+                AssetDatabase.Assets.Remove(bare);
             }
         }
 

@@ -2,6 +2,7 @@
 using System;
 using System.Collections.Generic;
 using System.IO;
+using System.Linq;
 using UnityEditor;
 using UnityEngine;
 
@@ -12,38 +13,105 @@ namespace Knurl.Editing
     /// for a menu that attaches them. A wrong tag gives a warning that names file, object and key.</summary>
     internal sealed class TagImporter : AssetPostprocessor
     {
+        /// <summary>What files with tags depend on: they are imported again when it changes.</summary>
+        internal const string Dependency = "com.knurl.haptics/tags";
+
+        /// <summary>At each start and after each compilation. Unity imports the files at its next refresh.</summary>
+        [InitializeOnLoadMethod]
+        static void Register()
+        {
+            if (!AssetDatabase.IsAssetImportWorkerProcess()) // a worker must not change dependencies
+            {
+                AssetDatabase.RegisterCustomDependency(Dependency, Hash128.Compute(Basis(LoadedAssemblies())));
+                EditorApplication.delayCall += ImportOnce;
+            }
+        }
+
+        static IEnumerable<string> LoadedAssemblies()
+        {
+            return AppDomain.CurrentDomain.GetAssemblies().Select(assembly => assembly.GetName().Name);
+        }
+
+        /// <summary>What the result of an import depends on besides the file: the package's version, and the importers that
+        /// Knurl has a part for.</summary>
+        internal static string Basis(IEnumerable<string> assemblies)
+        {
+            string[] parts = { "Knurl.Haptics.UnityGLTF", "Knurl.Haptics.glTFast" };
+            return NativeMethods.Version + " " + string.Join(" ", parts.Intersect(assemblies).ToArray());
+        }
+
+        /// <summary>Files that were in the project before the package do not depend on it yet.</summary>
+        internal static void ImportOnce()
+        {
+            if (!string.IsNullOrEmpty(EditorUserSettings.GetConfigValue(Dependency)))
+            {
+                return;
+            }
+            foreach (string path in AssetDatabase.GetAllAssetPaths())
+            {
+                if (IsGltf(path) && !IsAttached(path) && !AssetDatabase.IsValidFolder(TagAssets.FolderOf(path)) && MayHoldTags(path))
+                {
+                    AssetDatabase.ImportAsset(path);
+                }
+            }
+            EditorUserSettings.SetConfigValue(Dependency, "imported");
+        }
+
         /// <summary>Before the importer makes the objects.</summary>
         void OnPreprocessAsset()
         {
             ImportedFile.End();
-            if (IsGltf(assetPath))
+            if (!IsGltf(assetPath) || !MayHoldTags(assetPath))
             {
-                Dictionary<string, string> tags = null; // read once they are asked for
-                string path = assetPath;
-                ImportedFile.Begin(path, (array, index) =>
-                {
-                    string extras;
-                    tags = tags ?? List(path);
-                    return tags.TryGetValue(array + " " + index, out extras) ? extras : null;
-                }, context.AddObjectToAsset);
+                return;
             }
+            Dictionary<string, string> tags = null; // read once they are asked for
+            string path = assetPath;
+            context.DependsOnCustomDependency(Dependency);
+            ImportedFile.Begin(path, (array, index) =>
+            {
+                string extras;
+                tags = tags ?? List(path);
+                return tags.TryGetValue(array + " " + index, out extras) ? extras : null;
+            }, context.AddObjectToAsset);
         }
 
-        /// <summary>Empty without tags, or if the file is wrong: its importer tells that.</summary>
+        /// <summary>Empty if the file is wrong, after a warning.</summary>
         static Dictionary<string, string> List(string path)
+        {
+            var tags = new Dictionary<string, string>();
+            Try(path, () => tags = KnurlTags.List(File.ReadAllBytes(path), path));
+            return tags;
+        }
+
+        static bool MayHoldTags(string path)
+        {
+            bool may = false;
+            Try(path, () => may = GltfText.MayHoldTags(path));
+            return may;
+        }
+
+        /// <summary>Never throws, because other importers run after this one. Returns false after a warning.</summary>
+        static bool Try(string path, Action deed)
         {
             try
             {
-                if (GltfText.MayHoldTags(path))
-                {
-                    return KnurlTags.List(File.ReadAllBytes(path), path);
-                }
+                deed();
+                return true;
             }
             catch (KnurlException exception)
             {
-                Debug.LogWarning("Knurl: " + exception.Message);
+                Warn(path, exception.Message);
             }
-            return new Dictionary<string, string>();
+            catch (IOException exception)
+            {
+                Warn(path, path + ": " + exception.Message);
+            }
+            catch (UnauthorizedAccessException exception)
+            {
+                Warn(path, path + ": " + exception.Message);
+            }
+            return false;
         }
 
         static void OnPostprocessAllAssets(string[] imported, string[] deleted, string[] moved, string[] movedFrom)
@@ -87,36 +155,17 @@ namespace Knurl.Editing
                     || path.EndsWith(".glb", StringComparison.OrdinalIgnoreCase));
         }
 
-        /// <summary>Imports one file. Never throws, because other importers run after this one. Returns the number of
-        /// tags, or -1 after a warning.</summary>
+        /// <summary>Makes the gratings of one file. Returns the number of tags, or -1 after a warning.</summary>
         internal static int Import(string path)
         {
-            try
+            int count = 0;
+            bool isDone = Try(path, () =>
             {
-                if (!GltfText.MayHoldTags(path))
-                {
-                    return 0;
-                }
-                IReadOnlyList<KnurlTag> tags = KnurlTags.Read(path);
-                foreach (string sentence in TagAssets.Write(path, tags))
-                {
-                    Warn(path, sentence);
-                }
-                return tags.Count;
-            }
-            catch (KnurlException exception)
-            {
-                Warn(path, exception.Message);
-            }
-            catch (IOException exception)
-            {
-                Warn(path, path + ": " + exception.Message);
-            }
-            catch (UnauthorizedAccessException exception)
-            {
-                Warn(path, path + ": " + exception.Message);
-            }
-            return -1;
+                IReadOnlyList<KnurlTag> tags = GltfText.MayHoldTags(path) ? KnurlTags.Read(path) : new KnurlTag[0];
+                TagAssets.Write(path, tags).ForEach(sentence => Warn(path, sentence));
+                count = tags.Count;
+            });
+            return isDone ? count : -1;
         }
 
         static void Warn(string path, string sentence)

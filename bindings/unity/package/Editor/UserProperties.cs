@@ -33,7 +33,7 @@ namespace Knurl.Editing
                     ImportedFile.Begin(assetPath, null, context.AddObjectToAsset);
                     hasBegun = true;
                 }
-                ImportedFile.Attach(owner, tag, null, null, false);
+                ImportedFile.Attach(owner, new[] { owner }, tag, null, null, false);
             }
         }
 

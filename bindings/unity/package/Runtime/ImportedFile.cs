@@ -36,39 +36,46 @@ namespace Knurl
             return extras == null || index < 0 ? null : extras(array, index);
         }
 
-        /// <summary>Reads a tag and attaches it; a wrong one is a warning. The arguments are those of <see
-        /// cref="TagDocument.Read"/>. Returns true if the object has a surface now.</summary>
-        internal static bool Attach(GameObject owner, string node, string mesh, string material, bool isDoubleSided)
+        /// <summary>Reads a tag and attaches it; a wrong one is a warning. named: the object of the node. owners: the objects
+        /// that show its mesh; several if it is instanced. The other arguments are those of <see cref="TagDocument.Read"/>.
+        /// Returns true if they have a surface now.</summary>
+        internal static bool Attach(GameObject named, IReadOnlyList<GameObject> owners, string node, string mesh, string material,
+            bool isDoubleSided)
         {
             try
             {
                 KnurlTag tag = Library.Check() != null && path == null ? null // a game without the library stays silent
-                    : TagDocument.Read(path ?? "glTF", owner.name, node, mesh, material, isDoubleSided);
-                return tag != null && Attach(owner, tag);
+                    : TagDocument.Read(path ?? "glTF", named.name, node, mesh, material, isDoubleSided);
+                return tag != null && Attach(owners, tag);
             }
             catch (KnurlException exception)
             {
-                Warn(exception.Message, owner);
+                Warn(exception.Message, named);
                 return false;
             }
         }
 
         /// <summary>Returns false after a warning that the object has no mesh.</summary>
-        static bool Attach(GameObject owner, KnurlTag tag)
+        static bool Attach(IReadOnlyList<GameObject> owners, KnurlTag tag)
         {
-            if (owner.GetComponent<MeshFilter>() == null)
+            KnurlGrating grating = null; // of all of them
+            foreach (GameObject owner in owners)
             {
-                Warn((path == null ? "" : path + ": ") + "'" + owner.name + "' has a tag but no MeshFilter: tag objects that "
-                    + "have a mesh without bones and blend shapes", owner);
-                return false;
+                if (owner.GetComponent<MeshFilter>() == null)
+                {
+                    Warn((path == null ? "" : path + ": ") + "'" + owner.name + "' has a tag but no MeshFilter: tag objects that "
+                        + "have a mesh without bones and blend shapes", owner);
+                    return false;
+                }
+                if (owner.GetComponent<KnurlSurface>() == null)
+                {
+                    grating = grating == null ? tag.MakeGrating(owner.name) : grating;
+                    tag.CopyTo(owner.AddComponent<KnurlSurface>(), grating, tag.Axis);
+                }
             }
-            var surface = owner.GetComponent<KnurlSurface>();
-            if (surface == null)
+            if (grating != null)
             {
-                KnurlGrating grating = tag.MakeGrating(owner.name);
-                Keep(grating, "Knurl " + PathOf(owner.transform));
-                surface = owner.AddComponent<KnurlSurface>();
-                tag.CopyTo(surface, grating, tag.Axis);
+                Keep(grating, "Knurl " + PathOf(owners[0].transform));
             }
             return true;
         }

@@ -127,7 +127,18 @@ namespace UnityEditor
         public static void Refresh() { }
         public static void StartAssetEditing() { }
         public static void StopAssetEditing() { }
-        public static void ImportAsset(string path) { }
+        public static readonly List<string> Imported = new List<string>();
+        public static void ImportAsset(string path) { Imported.Add(path); }
+        public static string[] GetAllAssetPaths() { return System.Linq.Enumerable.ToArray(Assets.Keys); }
+        public static bool IsAssetImportWorkerProcess() { return false; }
+
+        /// Remembers the values; nothing is imported again because of them.
+        public static readonly Dictionary<string, Hash128> Dependencies = new Dictionary<string, Hash128>();
+        public static void RegisterCustomDependency(string dependency, Hash128 hashOfValue)
+        {
+            Dependencies[dependency] = hashOfValue;
+        }
+
         public static bool IsValidFolder(string path) { return folders.Contains(path); }
         /// If the name is used, the folder's gets a number; without its parent none is made.
         public static string CreateFolder(string parent, string name)
@@ -181,6 +192,14 @@ namespace UnityEditor
         }
     }
 
+    /// Of one project and user; a test clears it.
+    public static class EditorUserSettings
+    {
+        public static readonly Dictionary<string, string> Values = new Dictionary<string, string>();
+        public static string GetConfigValue(string name) { return Values.ContainsKey(name) ? Values[name] : null; }
+        public static void SetConfigValue(string name, string value) { Values[name] = value; }
+    }
+
     public class AssetImporter : UnityEngine.Object
     {
         public string assetPath { get; set; }
@@ -209,6 +228,9 @@ namespace UnityEditor
         {
             public readonly Dictionary<string, UnityEngine.Object> Added = new Dictionary<string, UnityEngine.Object>();
             public void AddObjectToAsset(string identifier, UnityEngine.Object obj) { Added.Add(identifier, obj); }
+            public readonly List<string> Dependencies = new List<string>();
+            public void DependsOnCustomDependency(string dependency) { Dependencies.Add(dependency); }
+            public void DependsOnArtifact(string path) { Dependencies.Add(path); }
         }
     }
 

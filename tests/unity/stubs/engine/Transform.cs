@@ -116,7 +116,15 @@ namespace UnityEngine
         public Transform root { get { return (object)above == null ? this : above.root; } }
         public int childCount { get { Living(); return children.Count; } }
         /// Not: paths.
-        public Transform Find(string n) { Living(); return children.Find(child => child.name == n); }
+        /// A name, or a path as "Child/Grandchild".
+        public Transform Find(string n)
+        {
+            Living();
+            string[] parts = n.Split(new[] { '/' }, 2);
+            Transform found = children.Find(child => child.name == parts[0]);
+            return found == null || parts.Length == 1 ? found : found.Find(parts[1]);
+        }
+
         public Transform GetChild(int index)
         {
             if (index < 0 || index >= childCount)

@@ -194,6 +194,14 @@ namespace UnityEngine
         public override string ToString() { return "RGBA" + Text.Of("F3", r, g, b, a); }
     }
 
+    /// Another hash than Unity's.
+    public struct Hash128
+    {
+        string data;
+        public static Hash128 Compute(string data) { return new Hash128 { data = data }; }
+        public override string ToString() { return data; }
+    }
+
     [Serializable]
     public struct Color32
     {

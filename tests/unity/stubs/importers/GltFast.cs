@@ -8,8 +8,22 @@ using UnityEngine;
 
 namespace GLTFast.Schema
 {
-    public abstract class NodeBase { public string name; public int mesh = -1; }
-    public abstract class MeshBase { public string name; public int[] materials = new int[0]; }
+    /// Instances: a test's, for the accessors of EXT_mesh_gpu_instancing.
+    public abstract class NodeBase { public string name; public int mesh = -1; public int Instances; }
+    public abstract class MeshPrimitiveBase { public int material = -1; }
+    public class MeshPrimitive : MeshPrimitiveBase { }
+
+    /// materials: a test's, of the primitives.
+    public abstract class MeshBase
+    {
+        public string name;
+        public int[] materials = new int[0];
+        public IReadOnlyList<MeshPrimitiveBase> Primitives
+        {
+            get { return Array.ConvertAll(materials, each => new MeshPrimitive { material = each }); }
+        }
+    }
+
     public abstract class MaterialBase { public bool doubleSided; }
 
     public abstract class RootBase
@@ -117,14 +131,36 @@ namespace GLTFast
         public delegate void MeshAddedDelegate(GameObject gameObject, uint nodeIndex, string meshName, MeshResult meshResult,
             uint[] joints = null, uint? rootJoint = null, float[] morphTargetWeights = null, int meshNumeration = 0);
 
-        public event MeshAddedDelegate MeshAdded;
+        public delegate void NodeCreatedDelegate(uint nodeIndex, GameObject gameObject);
 
-        /// A stand-in for CreateNode, SetNodeName and AddPrimitive.
+        public event NodeCreatedDelegate NodeCreated;
+        public event MeshAddedDelegate MeshAdded;
+        public event Action EndSceneCompleted;
+
+        internal void End()
+        {
+            if (EndSceneCompleted != null)
+            {
+                EndSceneCompleted();
+            }
+        }
+
+        /// A stand-in for CreateNode, SetNodeName, AddPrimitive and AddPrimitiveInstanced.
         internal void Add(Transform scene, uint index, NodeBase node, MeshBase mesh)
         {
             var made = new GameObject(node.name);
             made.transform.SetParent(scene, false);
-            for (int i = 0; mesh != null && i < mesh.materials.Length; i++)
+            if (NodeCreated != null)
+            {
+                NodeCreated(index, made);
+            }
+            for (int i = 0; i < node.Instances; i++)
+            {
+                var shown = new GameObject(mesh.name + "_i" + i);
+                shown.transform.SetParent(made.transform, false);
+                shown.AddComponent<MeshFilter>().sharedMesh = new UnityEngine.Mesh { name = mesh.name };
+            }
+            for (int i = 0; mesh != null && node.Instances == 0 && i < mesh.materials.Length; i++)
             {
                 GameObject owner = i == 0 ? made : new GameObject(mesh.name);
                 if (i > 0)
@@ -160,6 +196,7 @@ namespace GLTFast
                 NodeBase node = Source.Nodes[i];
                 instantiator.Add(scene.transform, (uint)i, node, node.mesh < 0 ? null : Source.Meshes[node.mesh]);
             }
+            instantiator.End();
             return scene;
         }
     }

@@ -11,7 +11,8 @@ namespace GLTF.Schema
     public class GLTFMaterial : GLTFProperty { public string Name; public bool DoubleSided; }
     public class MeshPrimitive : GLTFProperty { public MaterialId Material; }
     public class GLTFMesh : GLTFProperty { public string Name; public List<MeshPrimitive> Primitives; }
-    public class Node : GLTFProperty { public string Name; public MeshId Mesh; }
+    /// Instances: a test's, for the accessors of EXT_mesh_gpu_instancing.
+    public class Node : GLTFProperty { public string Name; public MeshId Mesh; public int Instances; }
 
     public class GLTFRoot
     {
@@ -65,9 +66,13 @@ namespace UnityGLTF.Plugins
                 Node node = root.Nodes[i];
                 var made = new GameObject(node.Name);
                 made.transform.SetParent(scene.transform, false);
-                if (node.Mesh != null)
+                if (node.Mesh != null && node.Instances == 0)
                 {
                     made.AddComponent<MeshFilter>().sharedMesh = new UnityEngine.Mesh { name = node.Mesh.Value.Name };
+                }
+                else if (node.Mesh != null)
+                {
+                    Repeat(made.transform, node);
                 }
                 foreach (GLTFImportPluginContext plugin in Plugins)
                 {
@@ -75,6 +80,18 @@ namespace UnityGLTF.Plugins
                 }
             }
             return scene;
+        }
+
+        static void Repeat(Transform parent, Node node)
+        {
+            var instances = new GameObject("Instances");
+            instances.transform.SetParent(parent, false);
+            for (int i = 0; i < node.Instances; i++)
+            {
+                var made = new GameObject("Instance " + i);
+                made.transform.SetParent(instances.transform, false);
+                made.AddComponent<MeshFilter>().sharedMesh = new UnityEngine.Mesh { name = node.Mesh.Value.Name };
+            }
         }
     }
 }

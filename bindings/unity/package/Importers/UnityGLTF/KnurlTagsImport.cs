@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+using System.Linq;
 using GLTF.Schema;
 using Newtonsoft.Json;
 using Newtonsoft.Json.Linq;
@@ -37,14 +38,24 @@ namespace Knurl.Importing
             {
                 GLTFMesh mesh = node.Mesh == null ? null : node.Mesh.Value;
                 int count = mesh == null || mesh.Primitives == null ? 0 : mesh.Primitives.Count;
+                GameObject[] owners = OwnersOf(nodeObject);
                 bool isDone = false;
                 for (int i = 0; i < count && !isDone; i++)
                 {
                     MaterialId used = mesh.Primitives[i].Material;
                     GLTFMaterial material = used == null ? null : used.Value;
-                    isDone = ImportedFile.Attach(nodeObject, Text(node.Extras), Text(mesh.Extras),
+                    isDone = ImportedFile.Attach(nodeObject, owners, Text(node.Extras), Text(mesh.Extras),
                         material == null ? null : Text(material.Extras), material != null && material.DoubleSided);
                 }
+            }
+
+            /// <summary>A node that is instanced (EXT_mesh_gpu_instancing) has no mesh itself, but a child Instances, whose
+            /// children Instance 0 and so on have it.</summary>
+            static GameObject[] OwnersOf(GameObject nodeObject)
+            {
+                Transform first = nodeObject.transform.Find("Instances/Instance 0");
+                return first == null || first.GetComponent<MeshFilter>() == null ? new[] { nodeObject }
+                    : first.parent.gameObject.GetComponentsInChildren<MeshFilter>(true).Select(filter => filter.gameObject).ToArray();
             }
 
             static string Text(JToken extras)

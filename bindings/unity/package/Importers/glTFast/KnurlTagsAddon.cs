@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
+using System.Collections.Generic;
+using System.Linq;
 using GLTFast;
 using GLTFast.Addons;
 using UnityEngine;
 #if KNURL_NEWTONSOFT
-using System.Collections.Generic;
 using Newtonsoft.Json;
 using Newtonsoft.Json.Linq;
 #endif
@@ -30,6 +31,7 @@ namespace Knurl.Importing
         internal sealed class Instance : ImportAddonInstance
         {
             GltfImportBase gltf;
+            readonly Dictionary<GameObject, int> bare = new Dictionary<GameObject, int>(); // nodes without a mesh, their indices
 
             public override bool SupportsGltfExtension(string extensionName)
             {
@@ -47,8 +49,13 @@ namespace Knurl.Importing
                 var objects = instantiator as GameObjectInstantiator;
                 if (objects != null)
                 {
+                    objects.NodeCreated += (node, owner) => bare[owner] = (int)node;
                     objects.MeshAdded += (owner, node, name, mesh, joints, rootJoint, weights, number) =>
-                        Attach(owner, (int)node, mesh.meshIndex, mesh.materialIndices);
+                    {
+                        bare.Remove(owner);
+                        Attach(owner, new[] { owner }, (int)node, mesh.meshIndex, mesh.materialIndices);
+                    };
+                    objects.EndSceneCompleted += AttachInstances;
                 }
             }
 
@@ -56,17 +63,40 @@ namespace Knurl.Importing
             {
             }
 
-            /// <summary>An object shows the primitives that share vertices: it feels like the first that is
-            /// tagged.</summary>
-            void Attach(GameObject owner, int node, int mesh, int[] materials)
+            /// <summary>The objects feel like the first of the primitives' materials that is tagged.</summary>
+            void Attach(GameObject named, IReadOnlyList<GameObject> owners, int node, int mesh, IReadOnlyList<int> materials)
             {
                 bool isDone = false;
-                for (int i = 0; i < materials.Length && !isDone; i++)
+                for (int i = 0; i < materials.Count && !isDone; i++)
                 {
                     int material = materials[i];
-                    isDone = ImportedFile.Attach(owner, NodeExtras(node), MeshExtras(mesh), MaterialExtras(material),
+                    isDone = ImportedFile.Attach(named, owners, NodeExtras(node), MeshExtras(mesh), MaterialExtras(material),
                         material >= 0 && gltf.GetSourceMaterial(material).doubleSided);
                 }
+            }
+
+            /// <summary>glTFast tells nothing of the objects that show a node's mesh many times (EXT_mesh_gpu_instancing): they
+            /// are children of the node's object and no nodes themselves.</summary>
+            void AttachInstances()
+            {
+                var read = gltf as IGltfReadable<GLTFast.Schema.RootBase>;
+                foreach (KeyValuePair<GameObject, int> pair in bare)
+                {
+                    int mesh = read == null ? -1 : read.GetSourceRoot().Nodes[pair.Value].mesh;
+                    GameObject[] shown = mesh < 0 ? new GameObject[0] : pair.Key.GetComponentsInChildren<MeshFilter>(true)
+                        .Select(filter => filter.gameObject).Where(owner => IsInstance(owner, pair.Key)).ToArray();
+                    if (shown.Length > 0)
+                    {
+                        Attach(pair.Key, shown, pair.Value, mesh,
+                            read.GetSourceRoot().Meshes[mesh].Primitives.Select(each => each.material).ToArray());
+                    }
+                }
+                bare.Clear();
+            }
+
+            bool IsInstance(GameObject owner, GameObject node)
+            {
+                return owner.transform.parent == node.transform && !bare.ContainsKey(owner) && owner.GetComponent<KnurlSurface>() == null;
             }
 
 #if KNURL_NEWTONSOFT
