@@ -5,6 +5,7 @@
 
 #include <linux/usbdevice_fs.h>
 #include <poll.h>
+#include <pthread.h>
 #include <sched.h>
 #include <signal.h>
 #include <string.h>
@@ -56,7 +57,7 @@ static int leave_host(void) {
     }
     memset(&priority, 0, sizeof priority);
     priority.sched_priority = 71; /* one above the host's threads, if permitted */
-    (void)sched_setscheduler(0, SCHED_FIFO, &priority);
+    (void)pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority); /* musl has no sched_setscheduler() */
     (void)prctl(PR_SET_NAME, "knurl-guard");
     (void)!chdir("/");
     return 1;

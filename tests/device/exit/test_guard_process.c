@@ -135,6 +135,22 @@ TEST(it_holds_two_files_in_a_session_of_its_own_and_no_signal_ends_it) {
     (void)close(r.device);
 }
 
+TEST(its_priority_is_above_that_of_haptic_threads_if_permitted) {
+    struct sched_param priority = {71}, none = {0};
+    if (sched_setscheduler(0, SCHED_FIFO, &priority) != 0) {
+        print_message("real-time priority is not permitted\n");
+        skip();
+    }
+    assert_int_equal(sched_setscheduler(0, SCHED_OTHER, &none), 0);
+    const rig r = start();
+    const pid_t pid = find_guard(r.pipe);
+    assert_int_equal(sched_getscheduler(pid), SCHED_FIFO);
+    assert_int_equal(sched_getparam(pid, &priority), 0);
+    assert_int_equal(priority.sched_priority, 71);
+    knurl_guard_process_stop(r.guard);
+    (void)close(r.device);
+}
+
 TEST(a_guard_that_is_killed_is_noticed) {
     const rig r = start();
     assert_int_equal(kill(find_guard(r.pipe), SIGKILL), 0);
