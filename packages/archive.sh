@@ -16,9 +16,9 @@ home=$stage/$name
 cmake --install "$build" --prefix "$home" >/dev/null
 if [ -n "$other" ]; then
     cmake --install "$other" --prefix "$stage/other" >/dev/null
-    while read -r file; do
-        [ -L "$home/$file" ] || "$root/cmake/universal.py" "$home/$file" "$home/$file" "$stage/other/$file"
-    done < <(cd "$home" && ls bin/* lib/*.dylib)
+    for file in "$home"/bin/* "$home"/lib/*.dylib; do
+        [ -L "$file" ] || "$root/cmake/universal.py" "$file" "$file" "$stage/other/${file#"$home/"}"
+    done
 fi
 share=$home/share
 mkdir -p "$share"/{man/man1,bash-completion/completions,fish/vendor_completions.d,zsh/site-functions} "$home"/{assets,samples}
