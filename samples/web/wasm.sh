@@ -33,7 +33,7 @@ touch "$objects/begin"
 loader=$objects/gltf.cpp
 find sdk/src/gltf -name '*.cpp' | sort | sed 's|^sdk/src/\(.*\)|#include "\1"|' >"$loader.new"
 cmp -s "$loader.new" "$loader" || mv "$loader.new" "$loader"
-sources=(sdk/src/{vibration,grating,motion,contact,surface,proxy,guard,hip,scene,audio}/*.c "$loader" sdk/src/base/{error,format,heap,number,range}.c
+sources=(sdk/src/{vibration,grating,motion,contact,surface,proxy,guard,hip,scene,audio}/*.c "$loader" sdk/src/base/{error,format,heap,number}.c
     sdk/src/base/{format,regular_file,system}_posix.c samples/web/*.c)
 # shellcheck disable=SC2016 # the other shell expands it
 printf '%s\n' "${sources[@]}" |

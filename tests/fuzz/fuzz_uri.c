@@ -2,7 +2,7 @@
 #include "fuzz.h"
 
 #include "base/number.h"
-#include "device/uri.h"
+#include "device/driver.h"
 
 #include <knurl/device.h>
 

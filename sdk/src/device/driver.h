@@ -1,4 +1,4 @@
-/* The interface that each driver implements. SPDX-License-Identifier: MIT */
+/* The interface that each driver implements, and functions for all drivers. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_DRIVER_H
 #define KNURL_SRC_DRIVER_H
 
@@ -146,5 +146,44 @@ int knurl_force_is_zero(const double force[KNURL_FORCES]);
 /* Open devices, for exit.c. [game thread] */
 void knurl_device_register(knurl_device *device);
 void knurl_device_unregister(knurl_device *device);
+
+/* The drivers; find.c lists them. */
+extern const knurl_driver knurl_fake_driver;
+extern const knurl_driver knurl_touch_driver;
+extern const knurl_driver knurl_falcon_driver;
+extern const knurl_driver knurl_rawhid_driver;
+extern const knurl_driver knurl_serial_driver;
+extern const knurl_driver knurl_dhd_driver;
+extern const knurl_driver knurl_inverse3_driver;
+
+/* Advice in messages about devices that may not be opened. */
+#ifdef __linux__
+#define KNURL_PERMISSION_ADVICE                                                                                        \
+    "copy sdk/udev/70-knurl.rules to /etc/udev/rules.d, run 'udevadm control --reload' and 'udevadm trigger', and "    \
+    "plug it in again"
+#else /* no rules are needed there */
+#define KNURL_PERMISSION_ADVICE "end other programs that use it"
+#endif
+
+/* Appends a device. `reason`: printf format; "" if the device can be opened. */
+void knurl_listings_add(knurl_listings *listings, const char *uri, const char *name, const char *reason, ...)
+    KNURL_PRINTF(4, 5);
+
+/* Bytes of each part of a URI, "driver:name?key=value&key=value". */
+#define KNURL_URI_ROOM 512
+
+/* A key that a driver accepts, and the buffer for its value (KNURL_URI_ROOM bytes; "" if the URI lacks it). */
+typedef struct knurl_uri_key {
+    const char *key;
+    char *value;
+} knurl_uri_key;
+
+/* Splits `options` into a name (KNURL_URI_ROOM bytes, may be "") and values, without decoding. Errors:
+ * KNURL_ERROR_ARGUMENT (an unknown key, no '=', too long), with the device and its keys. */
+knurl_result knurl_uri_parse(const char *driver, const char *options, char *name, const knurl_uri_key *keys,
+                             size_t key_count);
+
+/* Parses a flag: "1", or "0" or "" for 0. Errors: KNURL_ERROR_ARGUMENT. */
+knurl_result knurl_uri_flag(const char *driver, const char *key, const char *value, uint32_t *flag);
 
 #endif

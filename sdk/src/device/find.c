@@ -1,10 +1,9 @@
 /* Finds the driver of a URI, and lists connected devices. SPDX-License-Identifier: MIT */
-#include "device/drivers.h"
+#include "device/driver.h"
 
 #include "base/atomic.h"
 #include "base/rule.h"
 #include "base/system.h"
-#include "device/listings.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 #include "hip/effects.h"
 
 #include "base/base.h"
-#include "base/range.h"
+#include "base/number.h"
 #include "base/vec3.h"
 
 #include <stdio.h>

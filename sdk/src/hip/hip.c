@@ -2,7 +2,7 @@
 #include "hip/hip.h"
 
 #include "base/base.h"
-#include "base/range.h"
+#include "base/number.h"
 #include "base/vec3.h"
 
 #include <stddef.h>

@@ -4,7 +4,7 @@
 
 #include "base/atomic.h"
 #include "base/base.h"
-#include "base/range.h"
+#include "base/number.h"
 #include "base/rule.h"
 #include "scene/scene.h"
 

@@ -2,7 +2,7 @@
 #include <knurl/motion.h>
 
 #include "base/handle.h"
-#include "base/range.h"
+#include "base/number.h"
 #include "base/vec3.h"
 
 #include <string.h>

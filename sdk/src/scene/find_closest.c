@@ -2,7 +2,7 @@
 #include "scene/scene.h"
 
 #include "base/base.h"
-#include "base/range.h"
+#include "base/number.h"
 #include "base/rule.h"
 #include "contact/bvh_search.h"
 #include "contact/mesh_query.h"

@@ -3,7 +3,7 @@
 #include "scene/scene.h"
 
 #include "base/base.h"
-#include "base/range.h"
+#include "base/number.h"
 #include "base/rule.h"
 
 #include <string.h>

@@ -2,7 +2,7 @@
 #include "surface/record.h"
 
 #include "base/base.h"
-#include "base/range.h"
+#include "base/number.h"
 #include "grating/methods.h"
 
 void knurl_material_desc_init(knurl_material_desc *desc, uint32_t size) {

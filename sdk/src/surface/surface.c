@@ -2,7 +2,7 @@
 #include "surface/surface.h"
 
 #include "base/base.h"
-#include "base/range.h"
+#include "base/number.h"
 
 #include <string.h>
 

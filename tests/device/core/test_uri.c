@@ -1,7 +1,7 @@
 /* The part after "driver:" in a device's URI. SPDX-License-Identifier: MIT */
 #include "support/close.h"
 
-#include "device/uri.h"
+#include "device/driver.h"
 
 #include <stdio.h>
 

@@ -10,7 +10,7 @@
 #include "device/inverse3/channel.h"
 #include "device/inverse3/inverse3_sim.h"
 #include "device/rawhid/hid_sim.h"
-#include "device/rawhid/rawhid.h"
+#include "device/rawhid/transport.h"
 
 #include <fcntl.h>
 #include <poll.h>

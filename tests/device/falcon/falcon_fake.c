@@ -1,7 +1,7 @@
 /* A simulated Falcon in place of the driver's transport. SPDX-License-Identifier: MIT */
 #include "falcon_fake.h"
 
-#include "device/listings.h"
+#include "device/driver.h"
 
 #include <string.h>
 

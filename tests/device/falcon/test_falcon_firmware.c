@@ -2,7 +2,6 @@
 #include "support/tool.h"
 
 #include "device/falcon/firmware.h"
-#include "device/falcon/image.h"
 #include "falcon_fake.h"
 #include "falcon_image.h"
 

@@ -8,13 +8,13 @@
 
 #include "base/vec3.h"
 #include "device/port.h"
-#include "device/rawhid/choose.h"
 #include "device/rawhid/fake_hid.h"
 #include "device/rawhid/geometry.h"
 #include "device/rawhid/kinematics.h"
-#include "device/rawhid/rawhid.h"
+#include "device/rawhid/rawhid_device.h"
 #include "device/rawhid/rawhid_double.h"
 #include "device/rawhid/ticking.h"
+#include "device/rawhid/transport.h"
 
 #include <stdio.h>
 #include <stdlib.h>

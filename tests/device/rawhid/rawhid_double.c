@@ -2,7 +2,7 @@
 #include "device/rawhid/rawhid_double.h"
 
 #include "device/rawhid/fake_hid.h"
-#include "device/rawhid/rawhid.h"
+#include "device/rawhid/transport.h"
 
 static fake_hid hid;
 

@@ -4,7 +4,7 @@
 #include "support/terminal.h"
 
 #include "base/vec3.h"
-#include "device/drivers.h"
+#include "device/driver.h"
 #include "device/port.h"
 #include "device/rawhid/emulated_hid.h"
 #include "device/rawhid/ticking.h"

@@ -4,12 +4,10 @@
 
 #include "base/number.h"
 #include "device/dhd/rights.h"
-#include "device/drivers.h"
+#include "device/driver.h"
 #include "device/dynlib.h"
 #include "device/link.h"
-#include "device/listings.h"
 #include "device/quaternion.h"
-#include "device/uri.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -2,7 +2,7 @@
 #include "device/dhd/rights.h"
 
 #include "base/finite.h"
-#include "device/permission.h"
+#include "device/driver.h"
 
 #ifndef __linux__
 

@@ -1,10 +1,9 @@
 /* The fake device's driver. SPDX-License-Identifier: MIT */
-#include "device/drivers.h"
+#include "device/driver.h"
 #include "device/fake/counts.h"
 #include "device/fake/fake_uri.h"
 #include "device/fake/hand.h"
 #include "device/fake/plant.h"
-#include "device/listings.h"
 
 #include "base/atomic.h"
 #include "base/base.h"

@@ -2,7 +2,7 @@
 #ifndef KNURL_SRC_FAKE_URI_H
 #define KNURL_SRC_FAKE_URI_H
 
-#include "base/range.h"
+#include "base/number.h"
 
 #include <knurl/fake.h>
 

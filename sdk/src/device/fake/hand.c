@@ -4,6 +4,7 @@
 #include "base/base.h"
 #include "base/vec3.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #define TWO_PI    6.283185307179586
@@ -119,6 +120,88 @@ static double back_and_forth(double path, double reach) {
     return reach / quarter * asin(roundness * sin(path * quarter / (roundness * reach)));
 }
 
+/* Checks the rows and computes the path's length, m. */
+static knurl_result measure(const knurl_stroke_desc *stroke, double *length) {
+    *length = 0.0;
+    for (uint32_t i = 0; i < stroke->path_rows; i++) {
+        const double *row = &stroke->path[6 * (size_t)i];
+        if (!vec3_finite(row) || !(fabs(vec3_length(row + 3) - 1.0) < 1e-3)) {
+            return knurl_fail(KNURL_ERROR_ARGUMENT,
+                              "stroke.path: row %u: expected a finite place (m) and a unit normal", (unsigned)i);
+        }
+        *length += i > 0 ? sqrt(vec3_distance2(row - 6, row)) : 0.0;
+    }
+    if (!(*length >= 1e-6 && *length <= 100.0)) {
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "stroke.path: expected a length of 1e-6 to 100 m, found %g m", *length);
+    }
+    return KNURL_OK;
+}
+
+/* Interpolates between row i (at 0) and row i + 1 (at 1). */
+static void between(const double *rows, uint32_t i, double at, double row[6]) {
+    const double *from = &rows[6 * (size_t)i];
+    for (int k = 0; k < 6; k++) {
+        row[k] = from[k] + at * (from[6 + k] - from[k]);
+    }
+    const double length = vec3_length(row + 3);
+    if (length > 0.0) {
+        vec3_scale(1.0 / length, row + 3, row + 3);
+    }
+}
+
+/* Resamples the given rows at even distances. */
+static void resample(const knurl_stroke_desc *stroke, knurl_hand_path *path) {
+    double passed = 0.0; /* m up to row i */
+    uint32_t i = 0;
+    double step = sqrt(vec3_distance2(stroke->path, stroke->path + 6));
+    for (uint32_t k = 0; k < path->count; k++) {
+        const double wanted = path->spacing * k;
+        while (i + 2 < stroke->path_rows && passed + step < wanted) {
+            path->loop = i == stroke->path_loop ? passed : path->loop;
+            passed += step;
+            i++;
+            step = sqrt(vec3_distance2(&stroke->path[6 * (size_t)i], &stroke->path[6 * (size_t)i + 6]));
+        }
+        between(stroke->path, i, step > 0.0 ? fmin(1.0, (wanted - passed) / step) : 0.0, &path->rows[6 * (size_t)k]);
+    }
+}
+
+knurl_result knurl_hand_path_create(const knurl_stroke_desc *stroke, knurl_hand_path *path) {
+    double length;
+    memset(path, 0, sizeof *path);
+    if (!stroke->path) {
+        return KNURL_OK;
+    }
+    const knurl_result result = measure(stroke, &length);
+    if (result) {
+        return result;
+    }
+    path->rows = malloc((size_t)stroke->path_rows * 6 * sizeof *path->rows);
+    if (!path->rows) {
+        return knurl_fail(KNURL_ERROR_MEMORY, "stroke.path: could not get memory for %u rows",
+                          (unsigned)stroke->path_rows);
+    }
+    path->count = stroke->path_rows;
+    path->spacing = length / (path->count - 1);
+    resample(stroke, path);
+    return KNURL_OK;
+}
+
+void knurl_hand_path_destroy(knurl_hand_path *path) {
+    free(path->rows);
+    memset(path, 0, sizeof *path);
+}
+
+/* The place at this distance from the start (m, clamped to the path), and its normal. */
+static void path_at(const knurl_hand_path *path, double distance, double place[3], double normal[3]) {
+    double row[6];
+    const double at = fmin(fmax(distance / path->spacing, 0.0), (double)(path->count - 1));
+    const uint32_t before = at < path->count - 2 ? (uint32_t)at : path->count - 2;
+    between(path->rows, before, at - before, row);
+    vec3_copy(row, place);
+    vec3_copy(row + 3, normal);
+}
+
 /* Speed along the path at time t after the approach. */
 static double path_speed(const knurl_stroke_desc *s, double t) {
     if (s->stroke == KNURL_STROKE_SWEEP) {
@@ -153,7 +236,7 @@ static void straight_target(const knurl_hand *hand, double height, double target
 
 /* The target over a curved surface. */
 static void target_on_path(const knurl_hand *hand, double height, double target[3]) {
-    const double length = knurl_hand_path_length(&hand->way);
+    const double length = hand->way.spacing * (hand->way.count - 1);
     double distance = 0.5 * length;
     double normal[3];
     if (goes_back_and_forth(&hand->stroke)) {
@@ -162,7 +245,7 @@ static void target_on_path(const knurl_hand *hand, double height, double target[
         distance =
             hand->path <= length ? hand->path : fmod(hand->path - length, length - hand->way.loop) + hand->way.loop;
     }
-    knurl_hand_path_at(&hand->way, distance, target, normal);
+    path_at(&hand->way, distance, target, normal);
     vec3_madd(target, height, normal, target);
 }
 

@@ -2,7 +2,17 @@
 #ifndef KNURL_SRC_HAND_H
 #define KNURL_SRC_HAND_H
 
-#include "device/fake/hand_path.h"
+#include "base/finite.h"
+
+#include <knurl/fake.h>
+
+/* A path over a surface, with rows at even distances. */
+typedef struct knurl_hand_path {
+    double *rows; /* x, y, z, and the outward normal; null: no path */
+    uint32_t count;
+    double spacing; /* m between rows */
+    double loop;    /* m from the start: a circle repeats from here */
+} knurl_hand_path;
 
 typedef struct knurl_hand {
     knurl_stroke_desc stroke; /* checked, speed resolved */
@@ -17,6 +27,12 @@ typedef struct knurl_hand {
 
 /* Checks a stroke. Errors: KNURL_ERROR_ARGUMENT. */
 knurl_result knurl_stroke_check(knurl_stroke_desc *stroke);
+
+/* Copies a checked stroke's path, if it has one. On failure *path is zeroed. Errors: KNURL_ERROR_ARGUMENT (rows or
+ * length), KNURL_ERROR_MEMORY. */
+knurl_result knurl_hand_path_create(const knurl_stroke_desc *stroke, knurl_hand_path *path);
+
+void knurl_hand_path_destroy(knurl_hand_path *path);
 
 /* stroke: checked. */
 void knurl_hand_init(knurl_hand *hand, const knurl_stroke_desc *stroke, double tremor, uint64_t seed);

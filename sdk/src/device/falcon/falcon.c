@@ -4,7 +4,7 @@
 #include "base/format.h"
 #include "base/number.h"
 #include "base/regular_file.h"
-#include "device/drivers.h"
+#include "device/driver.h"
 #include "device/falcon/firmware.h"
 #include "device/falcon/kinematics.h"
 

@@ -2,10 +2,10 @@
 #ifndef KNURL_SRC_FALCON_DEVICE_H
 #define KNURL_SRC_FALCON_DEVICE_H
 
+#include "device/driver.h"
 #include "device/falcon/frame.h"
 #include "device/falcon/transport.h"
 #include "device/link.h"
-#include "device/uri.h"
 
 typedef struct falcon {
     knurl_device base;

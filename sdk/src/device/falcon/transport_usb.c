@@ -1,7 +1,6 @@
 /* Finds and opens Falcons with libusb, which is loaded at run time. SPDX-License-Identifier: MIT */
+#include "device/driver.h"
 #include "device/falcon/transport.h"
-#include "device/listings.h"
-#include "device/permission.h"
 
 #ifndef KNURL_HAVE_LIBUSB
 

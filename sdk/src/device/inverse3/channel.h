@@ -2,8 +2,8 @@
 #ifndef KNURL_SRC_INVERSE3_CHANNEL_H
 #define KNURL_SRC_INVERSE3_CHANNEL_H
 
+#include "device/driver.h"
 #include "device/inverse3/message.h"
-#include "device/listings.h"
 
 #include <knurl/device.h>
 

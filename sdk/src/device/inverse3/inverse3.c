@@ -6,10 +6,8 @@
 #include "base/format.h"
 #include "base/number.h"
 #include "base/system.h"
-#include "device/drivers.h"
+#include "device/driver.h"
 #include "device/link.h"
-#include "device/listings.h"
-#include "device/uri.h"
 
 #include <math.h>
 #include <stdio.h>

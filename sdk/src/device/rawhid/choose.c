@@ -1,9 +1,8 @@
 /* Chooses a HID interface. SPDX-License-Identifier: MIT */
-#include "device/rawhid/choose.h"
+#include "device/rawhid/rawhid_device.h"
 
 #include "base/number.h"
-#include "device/listings.h"
-#include "device/permission.h"
+#include "device/driver.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -4,7 +4,7 @@
 #ifndef KNURL_SRC_RAWHID_GEOMETRY_H
 #define KNURL_SRC_RAWHID_GEOMETRY_H
 
-#include "base/range.h"
+#include "base/number.h"
 #include "device/rawhid/kinematics.h"
 
 #include <knurl/base.h>

@@ -1,11 +1,9 @@
 /* WoodenHaptics and similar devices: a microcontroller with encoders and current-controlled motors, over raw HID.
  * SPDX-License-Identifier: MIT */
-#include "device/rawhid/rawhid.h"
+#include "device/rawhid/transport.h"
 
-#include "device/drivers.h"
-#include "device/listings.h"
+#include "device/driver.h"
 #include "device/rawhid/rawhid_device.h"
-#include "device/uri.h"
 
 #include <stdio.h>
 #include <stdlib.h>

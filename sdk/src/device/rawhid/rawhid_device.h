@@ -2,10 +2,19 @@
 #ifndef KNURL_SRC_RAWHID_DEVICE_H
 #define KNURL_SRC_RAWHID_DEVICE_H
 
+#include "device/driver.h"
 #include "device/link.h"
-#include "device/rawhid/choose.h"
+#include "device/rawhid/geometry.h"
 #include "device/rawhid/kinematics.h"
 #include "device/rawhid/serial.h"
+#include "device/rawhid/transport.h"
+
+/* Search criteria. */
+typedef struct knurl_rawhid_wanted {
+    uint16_t vendor, product; /* 0, 0: any known device */
+    uint16_t usage_page, usage;
+    size_t report_bytes; /* 0: as the report descriptor has it, or the known device */
+} knurl_rawhid_wanted;
 
 typedef struct rawhid {
     knurl_device base;
@@ -44,5 +53,16 @@ int knurl_rawhid_send_home(rawhid *r);
 
 /* For knurl_link_open(). */
 int knurl_rawhid_exchange(knurl_device *device, const double force[3], knurl_device_sample *sample);
+
+/* choose.c. Sets the criteria from `id` ("" or "VID:PID"), which overrides the geometry. Errors: KNURL_ERROR_ARGUMENT.
+ */
+knurl_result knurl_rawhid_want(const char *id, const knurl_rawhid_geometry *geometry, knurl_rawhid_wanted *wanted);
+
+/* Finds the first interface that fits, and its report length. Errors: KNURL_ERROR_DEVICE_LOST, KNURL_ERROR_SYSTEM. */
+knurl_result knurl_rawhid_choose(const knurl_rawhid_bus *bus, const knurl_rawhid_wanted *wanted,
+                                 knurl_rawhid_found *chosen, size_t *report_bytes);
+
+/* Lists all known devices; if no device is connected, adds one entry with the reason. */
+void knurl_rawhid_list(const knurl_rawhid_bus *bus, knurl_listings *listings);
 
 #endif

@@ -5,9 +5,8 @@
 #ifndef KNURL_SRC_RAWHID_SERIAL_H
 #define KNURL_SRC_RAWHID_SERIAL_H
 
-#include "device/listings.h"
+#include "device/driver.h"
 #include "device/rawhid/transport.h"
-#include "device/uri.h"
 
 #define KNURL_SERIAL_VENDOR  0x16c0 /* Teensy, USB type "Serial" */
 #define KNURL_SERIAL_PRODUCT 0x0483

@@ -2,6 +2,7 @@
 #ifndef KNURL_SRC_RAWHID_TRANSPORT_H
 #define KNURL_SRC_RAWHID_TRANSPORT_H
 
+#include "device/driver.h"
 #include "device/rawhid/report.h"
 
 #define KNURL_RAWHID_FOUND 64 /* interfaces listed at most */
@@ -38,5 +39,9 @@ typedef struct knurl_rawhid_bus {
 
 /* The system's HID bus, through hidapi; null if that is missing, with the remedy in `why`. */
 const knurl_rawhid_bus *knurl_rawhid_hidapi(char *why, size_t why_size);
+
+/* The driver on any bus, for tests. options: the URI after "rawhid:". `bus` must outlive the device. Errors: as
+ * knurl_device_open(). */
+knurl_result knurl_rawhid_open(const char *options, const knurl_rawhid_bus *bus, knurl_device **device);
 
 #endif

@@ -1,7 +1,7 @@
 /* Serial ports with termios. SPDX-License-Identifier: MIT */
 #include "device/rawhid/serial.h"
 
-#include "device/permission.h"
+#include "device/driver.h"
 
 #if defined(_WIN32)
 

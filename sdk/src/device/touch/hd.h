@@ -1,10 +1,12 @@
 /* The part of 3D Systems' OpenHaptics HD API that Knurl uses: types, constants and functions, rewritten from its public
- * reference. The library is loaded at run time (hd_load.h). Lengths mm, stiffness N/mm, forces N.
+ * reference. The library is loaded at run time (hd_load.c). Lengths mm, stiffness N/mm, forces N.
  * SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_HD_H
 #define KNURL_SRC_HD_H
 
 #include "base/finite.h"
+
+#include <knurl/base.h>
 
 #include <stdint.h>
 
@@ -134,5 +136,13 @@ int knurl_hd_error_is_refusal(uint32_t code);
 /* Removes the errors that HD has queued, newest first. Returns their number. */
 #define HD_ERRORS_AT_ONCE 16
 int knurl_hd_take_errors(const hd_api *hd, hd_error errors[HD_ERRORS_AT_ONCE]);
+
+/* Loads the library, or counts one more user if it is loaded. `path`: the library, or "" for the environment variable
+ * KNURL_HD_LIBRARY, then the usual names. `device`: for messages. Errors: KNURL_ERROR_UNSUPPORTED (every attempt, with
+ * the system's reason), KNURL_ERROR_ARGUMENT (another library is loaded). [one thread at a time] */
+knurl_result knurl_hd_acquire(const char *path, const char *device, const hd_api **hd);
+
+/* Counts one user less, and unloads the library after the last one. */
+void knurl_hd_release(void);
 
 #endif

@@ -1,5 +1,5 @@
 /* Finds and loads the HD library. SPDX-License-Identifier: MIT */
-#include "device/touch/hd_load.h"
+#include "device/touch/hd.h"
 
 #include "base/regular_file.h"
 #include "base/system.h"

@@ -1,8 +1,7 @@
 /* 3D Systems Touch, through the HD library. Its scheduler owns the servo thread and serves all devices: it starts with
  * the first loop (preferably after all devices were opened) and stops when the last device is closed.
  * SPDX-License-Identifier: MIT */
-#include "device/drivers.h"
-#include "device/listings.h"
+#include "device/driver.h"
 #include "device/touch/touch_device.h"
 
 #include "base/atomic.h"

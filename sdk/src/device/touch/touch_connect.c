@@ -4,7 +4,7 @@
 
 #include "base/atomic.h"
 #include "base/system.h"
-#include "device/permission.h"
+#include "device/driver.h"
 
 #include <string.h>
 

@@ -4,8 +4,7 @@
 #define KNURL_SRC_TOUCH_DEVICE_H
 
 #include "device/driver.h"
-#include "device/touch/hd_load.h"
-#include "device/uri.h"
+#include "device/touch/hd.h"
 
 typedef struct touch touch;
 
