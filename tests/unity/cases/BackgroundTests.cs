@@ -125,14 +125,21 @@ namespace Knurl.Tests
             KnurlDevice d = StartResting();
             List<string> told = Listen(d);
             Until(() => d.InContact, "in contact");
-            Task closed = null;
-            double asynchronous = Milliseconds(() => closed = d.StopDeviceAsync());
-            Assert.That(!d.Running && Words(told).EndsWith("ended Plate"), Words(told));
-            Assert.That(closed.Wait(TimeSpan.FromSeconds(20.0)));
-            NoMoreThreadsThan(threads);
-            Assert.That(d.StartDevice());
-            Until(() => d.Ticks > 100, "it runs again");
-            double blocking = Milliseconds(d.StopDevice);
+            double asynchronous = 1e9, blocking = 1e9; // the least of some: what else runs only adds
+            for (int i = 0; i < 4; i++)
+            {
+                Task closed = null;
+                asynchronous = Math.Min(asynchronous, Milliseconds(() => closed = d.StopDeviceAsync()));
+                Assert.That(!d.Running && Words(told).EndsWith("ended Plate"), Words(told));
+                Assert.That(closed.Wait(TimeSpan.FromSeconds(20.0)));
+                NoMoreThreadsThan(threads);
+                Assert.That(d.StartDevice());
+                Until(() => d.InContact, "it runs again");
+                blocking = Math.Min(blocking, Milliseconds(d.StopDevice));
+                Assert.That(d.StartDevice());
+                Until(() => d.InContact, "and again");
+            }
+            d.StopDevice();
             Assert.That(asynchronous, Is.LessThan(0.5 * blocking), "ms");
             Console.WriteLine("note: StopDevice blocks for {0:f1} ms, StopDeviceAsync for {1:f1} ms", blocking, asynchronous);
         }

@@ -152,6 +152,60 @@ namespace Knurl.Tests
             Assert.AreEqual(4, Graphics.Drawn.Count);
         }
 
+        /// <summary>No device feels it: it is on no layer, or the library refuses it.</summary>
+        [TestCase(0, false)]
+        [TestCase(1, true)]
+        public void WhatIsNotFeltIsNotDrawn(int layers, bool isRefused)
+        {
+            Mesh mesh = Plate();
+            mesh.tangents = Enumerable.Repeat(new Vector4(1f, 0f, 0f, 1f), mesh.vertexCount).ToArray();
+            Make(mesh, Vector3.one);
+            surface.Layers = layers;
+            surface.Axis = isRefused ? Vector3.right : Vector3.zero;
+            surface.BoxCoordinates = isRefused;
+            if (isRefused)
+            {
+                UnityEngine.TestTools.LogAssert.Expect(LogType.Error, new System.Text.RegularExpressions.Regex("axis: expected zeros"));
+            }
+            surface.gameObject.AddComponent<KnurlStripes>();
+            Render();
+            CollectionAssert.IsEmpty(Graphics.Drawn);
+            surface.Layers = 1;
+            surface.Axis = Vector3.zero;
+            Render();
+            Assert.AreEqual(1, Graphics.Drawn.Count, "now it is felt");
+        }
+
+        /// <summary>Its shear changes in each frame; a change of its grating is drawn at once.</summary>
+        [Test]
+        public void WhatTurnsBelowAnUnevenScaleIsLaidOutInAFiftiethOfTheTime()
+        {
+            const int frames = 300;
+            Make(Plate(), Vector3.one);
+            GameObject uneven = MakeObject("Uneven");
+            uneven.transform.localScale = new Vector3(1f, 1f, 2f);
+            surface.transform.SetParent(uneven.transform, false);
+            Mesh mesh = Drawn().Mesh;
+            int changes = 0;
+            for (int i = 1; i <= frames; i++)
+            {
+                Vector2 before = mesh.uv[0];
+                surface.transform.localRotation = Quaternion.Euler(0f, 0.1f * i, 0f);
+                Render();
+                changes += mesh.uv[0] != before ? 1 : 0;
+            }
+            Assert.That(changes, Is.InRange(1, frames / 5), "of 300 frames");
+            System.Threading.Thread.Sleep(500);
+            surface.transform.localRotation = Quaternion.Euler(0f, 45f, 0f);
+            Vector2 late = mesh.uv[0];
+            Render();
+            Assert.That(mesh.uv[0] != late, "in the end it is drawn as it is");
+            late = mesh.uv[0];
+            surface.Grating.Orientation = 1f;
+            Render();
+            Assert.That(mesh.uv[0] != late);
+        }
+
         /// <summary>The built-in pipeline, and URP and HDRP, call for each camera.</summary>
         [Test]
         public void EachPipelinesCamerasAreDrawnForUntilItIsDisabled()

@@ -163,13 +163,48 @@ namespace Knurl.Tests
             LogAssert.Expect(LogType.Warning, new Regex("Assets/a.prefab: the surface 'a'.*Read/Write.*Store geometry"));
             new BuildCheck().OnPreprocessBuild(new BuildReport());
             StageUtility.Open = surface.gameObject;
-            GUI.Pressed.Add("Store geometry");
-            Hooks.EditorOf(surface).OnInspectorGUI();
-            GUI.Pressed.Clear();
+            Press(surface, "Store geometry");
             Assert.AreEqual("Assets/Gratings/plate geometry.asset", AssetDatabase.GetAssetPath(surface.Geometry));
             new BuildCheck().OnPreprocessBuild(new BuildReport());
             LogAssert.NoUnexpectedReceived();
             IsFelt(surface);
+        }
+
+        [Test]
+        public void Geometry_that_is_stored_again_stays_the_same_asset()
+        {
+            KnurlSurface surface = MakeShown(ShaderPropertyType.Texture);
+            MeshOf(surface).UploadMeshData(true);
+            AssetDatabase.CreateAsset(surface.gameObject, "Assets/a.prefab");
+            StageUtility.Open = surface.gameObject;
+            Press(surface, "Store geometry");
+            KnurlGeometry first = surface.Geometry;
+            Mesh felt = first.Mesh;
+            int assets = AssetDatabase.Assets.Count;
+            MeshOf(surface).vertices = MeshOf(surface).vertices.Select(place => 2f * place).ToArray();
+            Press(surface, "Store geometry again");
+            Assert.AreSame(first, surface.Geometry);
+            Assert.AreEqual(assets, AssetDatabase.Assets.Count);
+            Assert.That(felt == null, "its mesh of before is gone");
+            CollectionAssert.AreEqual(MeshOf(surface).vertices, first.Mesh.vertices);
+        }
+
+        static void Press(KnurlSurface surface, string button)
+        {
+            GUI.Pressed.Add(button);
+            Hooks.EditorOf(surface).OnInspectorGUI();
+            GUI.Pressed.Clear();
+        }
+
+        [TestCase(true)]
+        [TestCase(false)]
+        public void A_player_keeps_stored_triangles_once(bool isEditor)
+        {
+            KnurlGeometry geometry = Made(KnurlGeometry.Of(Made(Plate())));
+            Application.isEditor = isEditor;
+            Assert.AreEqual(4, geometry.Mesh.vertexCount);
+            FieldInfo field = typeof(KnurlGeometry).GetField("vertices", BindingFlags.Instance | BindingFlags.NonPublic);
+            Assert.AreEqual(isEditor ? 4 : 0, ((Vector3[])field.GetValue(geometry)).Length);
         }
 
         /// <summary>A prefab has stored its mesh, which is another now.</summary>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+using System;
 using UnityEditor;
 using UnityEditor.SceneManagement;
 using UnityEngine;
@@ -113,12 +114,32 @@ namespace Knurl.Editing
             string fault = isPrefabs ? BuildCheck.FaultOf(surface, true) : null;
             if ((fault != null || isStored) && GUILayout.Button(isStored ? "Store geometry again" : "Store geometry"))
             {
-                KnurlGeometry made = KnurlGeometry.Of(surface.GetComponent<MeshFilter>().sharedMesh);
-                if (made != null)
-                {
-                    Change("geometry", property => property.objectReferenceValue = Presets.Save(made, made.name + " geometry"));
-                }
+                Store(surface.GetComponent<MeshFilter>().sharedMesh, surface.Geometry);
             }
+        }
+
+        /// <summary>Into the asset that is there, if it is of the same mesh.</summary>
+        void Store(Mesh mesh, KnurlGeometry before)
+        {
+            bool isSame = before != null && mesh != null && EditorUtility.IsPersistent(before)
+                && before.name.StartsWith(NameOf(mesh), StringComparison.Ordinal);
+            if (isSame && before.Take(mesh))
+            {
+                EditorUtility.SetDirty(before);
+                AssetDatabase.SaveAssetIfDirty(before);
+                lookAgain = 0.0;
+                return;
+            }
+            KnurlGeometry made = KnurlGeometry.Of(mesh);
+            if (made != null)
+            {
+                Change("geometry", property => property.objectReferenceValue = Presets.Save(made, NameOf(mesh)));
+            }
+        }
+
+        static string NameOf(Mesh mesh)
+        {
+            return mesh.name + " geometry";
         }
 
         /// <summary>Never throws: after an exception, an inspector draws nothing more.</summary>

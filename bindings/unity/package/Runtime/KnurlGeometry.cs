@@ -24,19 +24,33 @@ namespace Knurl
         /// <summary>Stores a mesh that can be read now; null if there is no mesh, or it has no triangles.</summary>
         internal static KnurlGeometry Of(Mesh mesh)
         {
-            int[] indices = mesh == null ? new int[0] : IndicesOf(mesh);
-            if (indices.Length == 0 || mesh.vertices.Length == 0)
-            {
-                return null;
-            }
             var made = CreateInstance<KnurlGeometry>();
-            made.name = mesh.name;
-            made.vertices = mesh.vertices;
-            made.normals = mesh.normals;
-            made.tangents = mesh.tangents;
-            made.uvs = mesh.uv;
-            made.triangles = indices;
-            return made;
+            if (made.Take(mesh))
+            {
+                made.name = mesh.name;
+                return made;
+            }
+            DestroyImmediate(made);
+            return null;
+        }
+
+        /// <summary>Stores another mesh in its place, or the same after a change; false, and nothing changes, if there is no mesh
+        /// or it has no triangles.</summary>
+        internal bool Take(Mesh given)
+        {
+            int[] indices = given == null ? new int[0] : IndicesOf(given);
+            if (indices.Length == 0 || given.vertices.Length == 0)
+            {
+                return false;
+            }
+            vertices = given.vertices;
+            normals = given.normals;
+            tangents = given.tangents;
+            uvs = given.uv;
+            triangles = indices;
+            DestroyImmediate(mesh);
+            mesh = null;
+            return true;
         }
 
         static int[] IndicesOf(Mesh mesh)
@@ -72,6 +86,13 @@ namespace Knurl
                         uv = uvs,
                     };
                     mesh.SetIndices(triangles, MeshTopology.Triangles, 0);
+                    if (!Application.isEditor) // where they may be stored again
+                    {
+                        vertices = normals = new Vector3[0];
+                        tangents = new Vector4[0];
+                        uvs = new Vector2[0];
+                        triangles = new int[0];
+                    }
                 }
                 return mesh;
             }

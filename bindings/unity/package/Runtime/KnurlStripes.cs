@@ -9,7 +9,8 @@ namespace Knurl
     /// <summary>Draws the ridges of the <see cref="KnurlSurface"/> on this object over its mesh, at the places where they are
     /// felt: in the Game view and in built games, in the built-in pipeline, URP and HDRP. Draws nothing on a mesh of more
     /// than 200,000 triangles. Lays the ridges out again after each change of mesh, grating or scale, which takes some
-    /// milliseconds for a large mesh: not for every frame. Main thread.</summary>
+    /// milliseconds for a large mesh; for a scale that goes on changing, in at most a fiftieth of the time. Main
+    /// thread.</summary>
     [AddComponentMenu("Knurl/Knurl Stripes")]
     [HelpURL(Manual.Stripes)]
     [ExecuteAlways]
@@ -18,6 +19,7 @@ namespace Knurl
     public sealed class KnurlStripes : MonoBehaviour
     {
         const int MostTriangles = 200000;
+        const double PausePerLay = 50.0; // of the time that it took
 
         [SerializeField, Tooltip("Colour over ridges; its alpha is how much of the mesh it covers.")]
         Color ridge = new Color(1f, 0.95f, 0.85f, 0.2f);
@@ -34,6 +36,7 @@ namespace Knurl
         long seenVersion;
         int seenMade;
         double[] seenRest;
+        double layAgain; // s, as Time.realtimeSinceStartup
 
         /// <summary>Colour over ridges, with alpha.</summary>
         public Color Ridge
@@ -76,17 +79,23 @@ namespace Knurl
         {
             Mesh mesh;
             surface = surface == null ? GetComponent<KnurlSurface>() : surface;
-            if (surface.Grating == null || surface.FindMesh(out mesh) != null || !FindMaterial())
+            if (surface.Grating == null || surface.Layers == 0 || surface.FindMesh(out mesh) != null || !FindMaterial())
             {
                 return;
             }
-            if (HasChanged(mesh))
+            double now = Time.realtimeSinceStartupAsDouble;
+            if (IsOther(mesh))
             {
                 Lay(mesh);
             }
-            if (overlay == null)
+            else if (now >= layAgain && IsScaledAnew())
             {
-                return; // without the library, or scaled to nothing
+                Lay(mesh);
+                layAgain = now + (1.0 + PausePerLay) * (Time.realtimeSinceStartupAsDouble - now);
+            }
+            if (overlay.vertexCount == 0)
+            {
+                return;
             }
             material.SetColor("_Ridge", ridge);
             material.SetColor("_Groove", groove);
@@ -104,21 +113,24 @@ namespace Knurl
             return material != null;
         }
 
-        unsafe bool HasChanged(Mesh mesh)
+        bool IsOther(Mesh mesh)
         {
             KnurlGrating grating = surface.Grating;
+            return overlay == null || seen != mesh || seenGrating != grating || seenVersion != grating.Version
+                || seenMade != surface.Made;
+        }
+
+        /// <summary>Also if it is sheared: as it turns below an unevenly scaled object.</summary>
+        unsafe bool IsScaledAnew()
+        {
             knurl_session_pose pose;
             double* rows = stackalloc double[12];
             Matrix4x4 place = transform.localToWorldMatrix;
             Axes.ToScene(&place, rows);
-            if (Library.Check() != null || NativeMethods.knurl_session_split_pose(rows, &pose) == 0)
-            {
-                return false;
-            }
             fixed (double* rest = seenRest)
             {
-                return overlay == null || seen != mesh || seenGrating != grating || seenVersion != grating.Version
-                    || seenMade != surface.Made || NativeMethods.knurl_session_same_rest(pose.rest, rest) == 0;
+                return Library.Check() == null && NativeMethods.knurl_session_split_pose(rows, &pose) != 0
+                    && NativeMethods.knurl_session_same_rest(pose.rest, rest) == 0;
             }
         }
 
@@ -138,7 +150,8 @@ namespace Knurl
             seenRest = stripes.Layout.Rest;
             var places = new List<Vector3>();
             var cycles = new List<Vector2>();
-            if (stripes.Triangles.Length <= 3 * MostTriangles)
+            bool isFelt = stripes.Layout.Coordinates != ""; // not without the library, scaled to nothing or refused // not without the library, on no layer or scaled to nothing
+            if (isFelt && stripes.Triangles.Length <= 3 * MostTriangles)
             {
                 stripes.Fill(places, cycles);
             }
