@@ -165,7 +165,7 @@ namespace Knurl.Tests
             surface.BoxCoordinates = isRefused;
             if (isRefused)
             {
-                UnityEngine.TestTools.LogAssert.Expect(LogType.Error, new System.Text.RegularExpressions.Regex("axis: expected zeros"));
+                ExpectError("axis: expected zeros");
             }
             surface.gameObject.AddComponent<KnurlStripes>();
             Render();

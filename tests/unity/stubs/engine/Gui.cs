@@ -46,12 +46,15 @@ namespace UnityEngine
         public static bool changed { get; set; }
         static GUI() { color = Color.white; enabled = true; }
         public static readonly GUISkin skin = new GUISkin();
-        public static void Label(Rect rect, string text) { Drawn.Add("label " + text); }
+        /// Of labels and textures, in the order in which they were drawn.
+        public static readonly List<KeyValuePair<Rect, object>> Placed = new List<KeyValuePair<Rect, object>>();
+        public static void Label(Rect rect, string text) { Drawn.Add("label " + text); Place(rect, text); }
+        static void Place(Rect rect, object what) { Placed.Add(new KeyValuePair<Rect, object>(rect, what)); }
         public static void Box(Rect rect, string text) { Drawn.Add("box " + text); }
         public static bool Button(Rect rect, string text) { Drawn.Add("button " + text); return false; }
         public static bool Toggle(Rect rect, bool value, string text) { Drawn.Add("toggle " + text); return value; }
         public static float HorizontalSlider(Rect rect, float value, float low, float high) { return value; }
-        public static void DrawTexture(Rect rect, Texture texture) { Drawn.Add("texture"); }
+        public static void DrawTexture(Rect rect, Texture texture) { Drawn.Add("texture"); Place(rect, texture); }
     }
 
     public static class GUILayout

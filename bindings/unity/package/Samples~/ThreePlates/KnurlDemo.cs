@@ -15,7 +15,7 @@ namespace Knurl.Samples
 
         const float Ball = 0.003f; // m: the cursor's diameter
         static readonly Vector3 WorkspaceCentre = new Vector3(0f, 0.02f, 0f); // a Touch reaches 60 mm below it
-        static readonly Vector3 Eye = new Vector3(0f, 0.17f, -0.13f);
+        static readonly Vector3 Eye = new Vector3(0f, 0.102f, -0.078f);
 
         KnurlDevice haptic;
 
