@@ -357,6 +357,7 @@ static knurl_passivity swinging(void) {
     p.unit = 1.0;
     p.reversal = KNURL_PASSIVITY_REVERSAL;
     p.farthest = 2e-3;
+    p.direction = -1.0;
     return p;
 }
 

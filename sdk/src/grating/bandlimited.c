@@ -79,8 +79,10 @@ static double mean(double from, double to) {
 }
 
 /* On a grid: the axis that crosses the most ridges (Eq. 12). If the other one takes over, the phase continues from its
- * present value in its present direction: a cosine is the same backwards. */
-static void choose_axis(const knurl_grating *g, knurl_grating_state *s, const double velocity[2]) {
+ * present value in its present direction: a cosine is the same backwards. Not inlined: every grating would save the
+ * registers that it needs. */
+__attribute__((noinline)) static void choose_axis(const knurl_grating *g, knurl_grating_state *s,
+                                                  const double velocity[2]) {
     const double *fs = g->spatial_frequency;
     const int32_t now = s->axis, other = 1 - s->axis;
     const double margin = s->direction ? TAKE_OVER : 1.0; /* no margin at the first tick */

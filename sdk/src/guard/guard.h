@@ -42,7 +42,7 @@ static inline void knurl_guard_begin(knurl_guard *guard, double attenuation) {
 /* The entry ramp: limits how fast the depth grows. It starts again from 0 while no force is sent. */
 static inline void knurl_guard_enter(const knurl_guard *guard, knurl_wall *wall, uint32_t *flags) {
     const double most = wall->contact->depth + guard->entry;
-    if (KNURL_UNLIKELY(guard->gain == 0.0)) {
+    if (KNURL_UNLIKELY(guard->gain <= 0.0)) {
         wall->contact->depth = 0.0;
         return;
     }

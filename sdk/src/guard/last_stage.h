@@ -47,11 +47,12 @@ static inline double knurl_last_stage_limit(knurl_last_stage *stage, double gain
         vec3_scale(most / length, force, force);
         *flags |= most < stage->heat.max_force ? KNURL_TICK_HEAT : KNURL_TICK_FORCE_LIMIT;
         length = vec3_length(force);
+        if (!knurl_is_finite(length)) {
+            return length;
+        }
     }
-    if (KNURL_LIKELY(knurl_is_finite(length))) {
-        vec3_copy(force, stage->force);
-        knurl_heat_add(&stage->heat, length * length);
-    }
+    vec3_copy(force, stage->force);
+    knurl_heat_add(&stage->heat, length * length);
     return length;
 }
 

@@ -42,6 +42,7 @@
 
 void knurl_passivity_init(knurl_passivity *p, const knurl_hip_facts *facts) {
     memset(p, 0, sizeof *p);
+    p->direction = -1.0;
     p->longest = (int32_t)(PERIOD * facts->rate);
     p->softening = 1.0 / (1.0 + SOFTENING_TIME * facts->rate);
     p->off_most = OFF_TIME * facts->rate;
@@ -81,7 +82,7 @@ void knurl_passivity_end_swing(knurl_passivity *p) {
     }
     p->extreme = p->farthest;
     p->farthest = p->depth;
-    p->outwards = !p->outwards;
+    p->direction = -p->direction;
     p->before = p->ticks;
     p->crossed = p->crossings;
     p->ticks = 0;

@@ -16,6 +16,7 @@ typedef struct knurl_passivity {
     double depth;       /* m: of the deepest wall in this tick, after the entry ramp; 0 outside */
     double extreme;     /* m: depth at the last reversal */
     double farthest;    /* m: farthest depth since, in the present direction */
+    double direction;   /* 1: heading out, -1: in */
     double largest;     /* m: largest swing of the row, decaying */
     double squares;     /* m^2: of the row's swings */
     double moved;       /* m: total change of H since the last reversal */
@@ -26,7 +27,6 @@ typedef struct knurl_passivity {
     int32_t longest;    /* ticks: a longer swing in and out may be a hand's motion */
     int32_t ticks;      /* since the last reversal, at most one more than `longest` */
     int32_t before;     /* and in the half swing before */
-    int32_t outwards;   /* 1: heading out */
     int32_t busy;       /* 1: there is a depth to follow, or an alarm */
     int32_t alarmed;
     double soft;      /* 0 to 1: progress towards the passive stiffness */
@@ -52,7 +52,7 @@ static inline void knurl_passivity_end_row(knurl_passivity *p) {
 
 /* Advances by one tick. Only needed while `busy`. */
 static inline void knurl_passivity_follow(knurl_passivity *p) {
-    const double behind = p->outwards ? p->depth - p->farthest : p->farthest - p->depth;
+    const double behind = p->direction * (p->depth - p->farthest);
     if (KNURL_UNLIKELY(p->alarmed)) {
         knurl_passivity_go_on(p);
         p->depth = 0.0;
@@ -66,8 +66,8 @@ static inline void knurl_passivity_follow(knurl_passivity *p) {
         knurl_passivity_end_swing(p);
     } else if (behind < 0.0) {
         p->farthest = p->depth;
-    } else if (is_long) { /* at rest, or outside */
-        p->busy = p->depth > 0.0;
+    } else if (is_long && !(p->depth > 0.0)) {
+        p->busy = 0;
     }
     p->depth = 0.0;
 }

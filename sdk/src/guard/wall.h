@@ -22,14 +22,14 @@ typedef struct knurl_wall {
     double height;    /* m: H, set by the force law */
 } knurl_wall;
 
-/* Sets a wall from its material at z (m, scene), before the forces. */
-static inline void knurl_wall_init(knurl_wall *wall, const knurl_material_desc *material, double z,
+/* Sets a wall from its material and amplitude (m) at z (m, scene), before the forces. */
+static inline void knurl_wall_init(knurl_wall *wall, const knurl_material_desc *material, double amplitude, double z,
                                    knurl_wall_state *contact) {
     wall->material = material;
     wall->contact = contact;
     wall->z = z;
     wall->stiffness = material->stiffness;
-    wall->amplitude = material->amplitude;
+    wall->amplitude = amplitude;
     wall->damping = material->damping;
 }
 

@@ -58,6 +58,10 @@ static inline void play_grating(const knurl_hip_motion *hip, const knurl_active_
                                 knurl_contact_force *out) {
     const knurl_material_desc *m = &c->record->material;
     knurl_grating_output played;
+    knurl_candidate *candidate = c->candidate;
+    if (KNURL_UNLIKELY(candidate->plays_edits != c->record->edits)) {
+        knurl_candidate_set_grating(candidate, c->record, hip->facts);
+    }
     knurl_surface_coordinates(c->surface, c->record, &c->contact, c->begins, &c->candidate->carry, coordinates);
     double rates[2] = {velocity.x, velocity.y};
     int32_t has_position = 1;
@@ -71,15 +75,11 @@ static inline void play_grating(const knurl_hip_motion *hip, const knurl_active_
     out->cycles[1] = m->spatial_frequency[1] * coordinates[1] + 0.0;
     const knurl_grating_input at = {
         {coordinates[0], coordinates[1]}, {rates[0], rates[1]}, hip->clock->period, has_position};
-    double amplitude = c->record->is_smooth ? 0.0 : wall->amplitude;
+    candidate->plays.amplitude = wall->amplitude;
     if (KNURL_UNLIKELY(hip->even->on)) {
-        amplitude *= knurl_even_gain(hip->even, knurl_grating_highest(m->spatial_frequency, at.velocity));
+        const double frequency = knurl_grating_highest(m->spatial_frequency, at.velocity);
+        candidate->plays.amplitude *= knurl_even_gain(hip->even, frequency);
     }
-    knurl_candidate *candidate = c->candidate;
-    if (KNURL_UNLIKELY(candidate->plays_edits != c->record->edits)) {
-        knurl_candidate_set_grating(candidate, c->record, hip->facts);
-    }
-    candidate->plays.amplitude = amplitude;
     knurl_grating_run(c->record->method, &candidate->plays, &candidate->grating, &at, &played);
     out->grating = played;
 }

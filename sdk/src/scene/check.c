@@ -240,7 +240,7 @@ static void inspect(const knurl_scene *scene, const knurl_hip *hip, const knurl_
     memset(check, 0, sizeof *check);
     knurl_workspace_target(&hip->move, &hip->workspace, &workspace);
     knurl_bounds_init(&bounds, &hip->facts, workspace.scale);
-    knurl_wall_init(&wall, m, 0.0, NULL);
+    knurl_wall_init(&wall, m, m->amplitude, 0.0, NULL);
     if (on.clamped) {
         knurl_guard_limit_wall(&bounds, &wall);
     }
@@ -257,7 +257,7 @@ static void inspect(const knurl_scene *scene, const knurl_hip *hip, const knurl_
     check_crowd(&on, scene, surface);
     check_winding(&on, surface);
     check_normals(&on, surface);
-    if (!surface->record->is_smooth) {
+    if (surface->record->amplitude > 0.0) {
         check_texture(&on, wall.stiffness);
         check_stretch(&on, surface);
     }

@@ -133,7 +133,7 @@ static inline void count_grating(knurl_hip *hip, const knurl_active_contact *con
                                  int64_t events_before) {
     const double halves = 2.0 * share->grating.temporal_frequency * hip->contacts.clock.period;
     hip->counts.events += (uint64_t)(contact->candidate->grating.event_count - events_before);
-    hip->counts.half_cycles_crossed += halves < 1e9 && !contact->record->is_smooth ? halves : 0.0;
+    hip->counts.half_cycles_crossed += halves < 1e9 && contact->record->amplitude > 0.0 ? halves : 0.0;
     hip->counts.half_cycles_played += share->grating.turned;
 }
 
@@ -173,7 +173,7 @@ static inline double render_contact(knurl_hip *hip, const knurl_tick_input *inpu
     const int64_t events = c->candidate->grating.event_count;
     knurl_wall wall;
     knurl_contact_force share;
-    knurl_wall_init(&wall, &c->record->material, c->contact.z, &c->candidate->guard);
+    knurl_wall_init(&wall, &c->record->material, c->record->amplitude, c->contact.z, &c->candidate->guard);
     knurl_guard_before(&hip->guard, &wall, &out->flags);
     knurl_force_law(&motion, c, plays, &wall, &share);
     double step = 0.0;

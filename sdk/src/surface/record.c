@@ -62,9 +62,9 @@ knurl_result knurl_record_set_material(knurl_record *record, const knurl_shape *
     record->method = &knurl_methods[m.method];
     record->cos_sin[0] = cos(m.orientation);
     record->cos_sin[1] = sin(m.orientation);
-    record->crest = smooth ? 0.0 : m.amplitude * knurl_methods[m.method].crest;
+    record->amplitude = smooth ? 0.0 : m.amplitude;
+    record->crest = record->amplitude * knurl_methods[m.method].crest;
     record->reach = record->crest + shape->bulge;
-    record->is_smooth = smooth;
     record->is_oriented = record->cos_sin[1] != 0.0 || record->cos_sin[0] != 1.0;
     record->has_grating = !smooth || (full_model & KNURL_FULL_GRATING) != 0;
     return KNURL_OK;

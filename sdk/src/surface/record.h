@@ -24,10 +24,10 @@ typedef struct knurl_record {
     knurl_material_desc material; /* method resolved */
     const knurl_method *method;   /* its row */
     double cos_sin[2];            /* of the orientation */
+    double amplitude;             /* m: the material's, or 0 if it has no ridges: neither frequency nor amplitude */
     double crest;                 /* m: height of the highest crest */
     double reach;        /* m in front of the shape at which contact begins: the crest, and the shape's bulge */
     int32_t has_grating; /* 0: nothing to play, the grating stage is skipped */
-    int32_t is_smooth;   /* 1: neither ridges nor height */
     int32_t is_oriented; /* 0: the orientation is 0, and is skipped */
     knurl_motion motion; /* of the shape's frame */
     float arrived[6];    /* box after the motion, with a margin; scene axes */
