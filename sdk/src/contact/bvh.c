@@ -2,21 +2,14 @@
  * centres is split: a third of the binning. SPDX-License-Identifier: MIT */
 #include "contact/bvh.h"
 
-#include "contact/float4.h"
-
 #include <string.h>
 
 #define BINS      16
 #define SAH_DEPTH 32 /* deeper ranges are halved, so that 2^26 triangles stay within KNURL_BVH_DEPTH_MAX */
 
-/* The fourth numbers are 0. */
-typedef struct box {
-    knurl_float4 min, max;
-} box;
-
-/* Boxes to sort, and their indices in the caller's array. */
+/* Boxes to sort, and their indices before. */
 typedef struct items {
-    box *boxes;
+    knurl_box *boxes;
     uint32_t *places;
 } items;
 
@@ -38,36 +31,36 @@ typedef struct tree {
     uint32_t capacity;
 } tree;
 
-static const box empty_box = {{3.4e38f, 3.4e38f, 3.4e38f, 0.0f}, {-3.4e38f, -3.4e38f, -3.4e38f, 0.0f}};
+static const knurl_box empty_box = {{3.4e38f, 3.4e38f, 3.4e38f, 0.0f}, {-3.4e38f, -3.4e38f, -3.4e38f, 0.0f}};
 
-static inline void box_add(box *into, const box *other) {
+static inline void box_add(knurl_box *into, const knurl_box *other) {
     into->min = knurl_float4_min(other->min, into->min);
     into->max = knurl_float4_max(other->max, into->max);
 }
 
-static double box_area(const box *b) {
+static double box_area(const knurl_box *b) {
     const double x = (double)b->max[0] - (double)b->min[0];
     const double y = (double)b->max[1] - (double)b->min[1];
     const double z = (double)b->max[2] - (double)b->min[2];
     return x < 0.0 ? 0.0 : x * y + y * z + z * x;
 }
 
-static inline knurl_float4 centre(const box *b) {
+static inline knurl_float4 centre(const knurl_box *b) {
     return 0.5f * b->min + 0.5f * b->max;
 }
 
-static inline uint32_t bin_of(const box *b, const split *s) {
+static inline uint32_t bin_of(const knurl_box *b, const split *s) {
     const float bin = (centre(b)[s->axis] - s->low) * s->scale;
     return !(bin > 0.0f) ? 0 : bin >= (float)(BINS - 1) ? BINS - 1 : (uint32_t)bin; /* NaN, from huge boxes, is 0 */
 }
 
 /* Computes a range's bounds, and a split along the widest axis of its centres; choose_bin() sets its bin. */
-static split measure(const box *boxes, const range *r, box *bounds) {
-    box centres = empty_box;
-    box sum = empty_box;
+static split measure(const knurl_box *boxes, const range *r, knurl_box *bounds) {
+    knurl_box centres = empty_box;
+    knurl_box sum = empty_box;
     for (uint32_t i = r->begin; i < r->end; i++) {
         const knurl_float4 middle = centre(&boxes[i]);
-        const box at = {middle, middle};
+        const knurl_box at = {middle, middle};
         box_add(&sum, &boxes[i]);
         box_add(&centres, &at);
     }
@@ -87,8 +80,8 @@ static split measure(const box *boxes, const range *r, box *bounds) {
 }
 
 /* Picks the cheapest of the 15 splits between bins. */
-static void choose_bin(const box *boxes, const range *r, split *s) {
-    box bounds[BINS];
+static void choose_bin(const knurl_box *boxes, const range *r, split *s) {
+    knurl_box bounds[BINS];
     uint32_t counts[BINS] = {0};
     double right_area[BINS];
     for (int i = 0; i < BINS; i++) {
@@ -99,7 +92,7 @@ static void choose_bin(const box *boxes, const range *r, split *s) {
         box_add(&bounds[bin], &boxes[i]);
         counts[bin]++;
     }
-    box sweep = empty_box;
+    knurl_box sweep = empty_box;
     for (int i = BINS - 1; i > 0; i--) {
         box_add(&sweep, &bounds[i]);
         right_area[i] = box_area(&sweep);
@@ -124,7 +117,7 @@ static uint32_t partition(const items *list, const range *r, const split *s) {
     uint32_t left = r->begin;
     for (uint32_t i = r->begin; i < r->end; i++) {
         if (bin_of(&list->boxes[i], s) < s->bin) {
-            const box moved = list->boxes[i];
+            const knurl_box moved = list->boxes[i];
             const uint32_t place = list->places[i];
             list->boxes[i] = list->boxes[left];
             list->places[i] = list->places[left];
@@ -137,7 +130,7 @@ static uint32_t partition(const items *list, const range *r, const split *s) {
 
 /* Writes a range's node; returns the index to split at, or r->end for a leaf. */
 static uint32_t make_node(const items *list, const range *r, uint32_t leaf_size, knurl_bvh_node *node) {
-    box bounds;
+    knurl_box bounds;
     split s = measure(list->boxes, r, &bounds);
     memcpy(node->min, &bounds.min, sizeof node->min);
     memcpy(node->max, &bounds.max, sizeof node->max);
@@ -194,21 +187,17 @@ static int build(knurl_heap *heap, const items *list, uint32_t count, uint32_t l
     return 1;
 }
 
-knurl_result knurl_bvh_build(knurl_heap *heap, const knurl_box *boxes, uint32_t count, uint32_t leaf_size,
-                             uint32_t *order, knurl_bvh_node **nodes, uint32_t *node_count) {
+knurl_result knurl_bvh_build(knurl_heap *heap, knurl_box *boxes, uint32_t count, uint32_t leaf_size, uint32_t *order,
+                             knurl_bvh_node **nodes, uint32_t *node_count) {
     tree t = {NULL, 0, 2 * (count / leaf_size) + 16}; /* leaves are usually more than half full */
-    const items list = {knurl_heap_alloc(heap, count, sizeof *list.boxes), order};
+    const items list = {boxes, order};
     t.nodes = knurl_heap_alloc(heap, t.capacity, sizeof *t.nodes);
     knurl_bvh_node *made = NULL;
-    if (list.boxes && t.nodes) {
-        for (uint32_t i = 0; i < count; i++) {
-            memcpy(&list.boxes[i].min, boxes[i].min, sizeof boxes[i].min);
-            memcpy(&list.boxes[i].max, boxes[i].max, sizeof boxes[i].max);
-            order[i] = i;
-        }
-        if (build(heap, &list, count, leaf_size, &t)) {
-            made = knurl_heap_alloc(heap, t.count, sizeof *made); /* exact size */
-        }
+    for (uint32_t i = 0; i < count; i++) {
+        order[i] = i;
+    }
+    if (t.nodes && build(heap, &list, count, leaf_size, &t)) {
+        made = knurl_heap_alloc(heap, t.count, sizeof *made); /* exact size */
     }
     if (made) {
         memcpy(made, t.nodes, t.count * sizeof *made);
@@ -216,6 +205,5 @@ knurl_result knurl_bvh_build(knurl_heap *heap, const knurl_box *boxes, uint32_t 
         *node_count = t.count;
     }
     knurl_heap_free(heap, t.nodes);
-    knurl_heap_free(heap, list.boxes);
     return made ? KNURL_OK : KNURL_ERROR_MEMORY;
 }

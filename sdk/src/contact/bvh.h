@@ -4,6 +4,7 @@
 #define KNURL_SRC_BVH_H
 
 #include "base/heap.h"
+#include "contact/float4.h"
 
 #include <math.h>
 
@@ -18,16 +19,16 @@ typedef struct knurl_bvh_node {
     uint32_t count; /* leaf: number of triangles; inner: 0 */
 } knurl_bvh_node;
 
+/* The fourth numbers are 0. */
 typedef struct knurl_box {
-    float min[3];
-    float max[3];
+    knurl_float4 min, max;
 } knurl_box;
 
-/* Builds a hierarchy over `count` (> 0) boxes. order: `count` entries, filled in with box indices in leaf order; each
- * leaf is a run of at most `leaf_size`. The nodes come from `heap`; scratch memory is freed. Errors:
- * KNURL_ERROR_MEMORY. */
-knurl_result knurl_bvh_build(knurl_heap *heap, const knurl_box *boxes, uint32_t count, uint32_t leaf_size,
-                             uint32_t *order, knurl_bvh_node **nodes, uint32_t *node_count);
+/* Builds a hierarchy over `count` (> 0) boxes, which it sorts. order: `count` entries, filled in with the boxes' former
+ * indices in leaf order; each leaf is a run of at most `leaf_size`. The nodes come from `heap`; scratch memory is
+ * freed. Errors: KNURL_ERROR_MEMORY. */
+knurl_result knurl_bvh_build(knurl_heap *heap, knurl_box *boxes, uint32_t count, uint32_t leaf_size, uint32_t *order,
+                             knurl_bvh_node **nodes, uint32_t *node_count);
 
 /* Squared distance from a point to a node's box; 0 inside. Allowed in a tick. */
 static inline double knurl_bvh_distance2(const knurl_bvh_node *node, const double p[3]) KNURL_NONBLOCKING {

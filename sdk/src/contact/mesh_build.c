@@ -151,18 +151,17 @@ static knurl_result keep_triangles(draft *d) {
     return KNURL_OK;
 }
 
+static knurl_float4 place_of(const draft *d, uint32_t vertex) {
+    const float *p = &d->desc->positions[3 * (size_t)vertex];
+    return (knurl_float4){p[0], p[1], p[2], 0.0f};
+}
+
 static void bound(const draft *d, knurl_box *boxes) {
     for (uint32_t i = 0; i < d->mesh->triangle_count; i++) {
         const uint32_t *v = &d->corners[3 * (size_t)i];
-        for (size_t axis = 0; axis < 3; axis++) {
-            const float a = d->desc->positions[3 * (size_t)v[0] + axis];
-            const float b = d->desc->positions[3 * (size_t)v[1] + axis];
-            const float c = d->desc->positions[3 * (size_t)v[2] + axis];
-            const float low = a < b ? a : b;
-            const float high = a < b ? b : a;
-            boxes[i].min[axis] = c < low ? c : low;
-            boxes[i].max[axis] = c > high ? c : high;
-        }
+        const knurl_float4 a = place_of(d, v[0]), b = place_of(d, v[1]), c = place_of(d, v[2]);
+        boxes[i].min = knurl_float4_min(c, knurl_float4_min(a, b));
+        boxes[i].max = knurl_float4_max(c, knurl_float4_max(b, a));
     }
 }
 

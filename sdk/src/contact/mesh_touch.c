@@ -116,6 +116,16 @@ static int edge_touches(const knurl_mesh *mesh, const double from[3], const doub
     return closest.distance2 <= seam2;
 }
 
+/* 1 if two triangles have a vertex in common. */
+static int share_vertex(const knurl_mesh *mesh, uint32_t a, uint32_t b) {
+    const uint32_t *v = &mesh->triangles[3 * (size_t)a], *w = &mesh->triangles[3 * (size_t)b];
+    int any = 0;
+    for (int i = 0; i < 3; i++) {
+        any |= (v[i] == w[0]) | (v[i] == w[1]) | (v[i] == w[2]);
+    }
+    return any;
+}
+
 /* Counts the pairs of corners at the same position; shared: the corners of one such pair. */
 static int shared_corners(const double a[3][3], const double b[3][3], int shared[2]) {
     int count = 0;
@@ -145,14 +155,20 @@ static int edges_touch(const knurl_mesh *mesh, const bounded *a, int shared, con
 }
 
 /* 1 if two triangles touch. The second one's planes are computed only if the first one's do not decide. */
-static int touch(const knurl_mesh *mesh, const bounded *a, uint32_t triangle, const double corners[3][3]) {
+static int touch(const knurl_mesh *mesh, const bounded *a, uint32_t triangle) {
     bounded b;
+    double corners[3][3];
     int shared[2];
-    const int count = shared_corners((const double (*)[3])a->corners, corners, shared);
-    if (count > 1 || (count == 1 && !a->has_rim && !has_rim(mesh, triangle))) { /* share an edge or a closed fan */
+    const int in_closed_fans = !a->has_rim && !has_rim(mesh, triangle);
+    if (in_closed_fans && share_vertex(mesh, a->triangle, triangle)) { /* most pairs: the test below, but faster */
         return 0;
     }
-    const int beyond = is_beyond(a, corners, shared[1], mesh->facts.seam);
+    knurl_mesh_corners(mesh, triangle, corners);
+    const int count = shared_corners((const double (*)[3])a->corners, (const double (*)[3])corners, shared);
+    if (count > 1 || (count == 1 && in_closed_fans)) { /* share an edge or a closed fan */
+        return 0;
+    }
+    const int beyond = is_beyond(a, (const double (*)[3])corners, shared[1], mesh->facts.seam);
     if (count == 0 && beyond) {
         return 0;
     }
@@ -166,8 +182,9 @@ static int touch(const knurl_mesh *mesh, const bounded *a, uint32_t triangle, co
             edges_touch(mesh, a, shared[0], &b));
 }
 
-/* Counts the touching pairs of `own` and a leaf's triangles with higher numbers. */
-static uint32_t count_pairs(const knurl_mesh *mesh, const bounded *own, uint32_t count, const knurl_bvh_node *leaf) {
+/* Counts the touching pairs of `own` and a leaf's triangles with higher numbers. box: around all of `own`. */
+static uint32_t count_pairs(const knurl_mesh *mesh, const bounded *own, uint32_t count, const knurl_search_box *box,
+                            const knurl_bvh_node *leaf) {
     uint32_t pairs = 0;
     for (uint32_t i = leaf->first; i < leaf->first + leaf->count; i++) {
         const uint32_t *v = &mesh->triangles[3 * (size_t)i];
@@ -175,11 +192,12 @@ static uint32_t count_pairs(const knurl_mesh *mesh, const bounded *own, uint32_t
         const knurl_float4 c = knurl_float4_vertex(mesh, v[2]);
         const knurl_float4 low = knurl_float4_min(a, knurl_float4_min(b, c));
         const knurl_float4 high = knurl_float4_max(a, knurl_float4_max(b, c));
+        if (knurl_mask4_any((box->low > high) | (box->high < low))) {
+            continue;
+        }
         for (uint32_t k = 0; k < count && own[k].triangle < i; k++) {
             if (!knurl_mask4_any((own[k].box.low > high) | (own[k].box.high < low))) {
-                double corners[3][3];
-                knurl_mesh_corners(mesh, i, corners);
-                pairs += (uint32_t)touch(mesh, &own[k], i, (const double (*)[3])corners);
+                pairs += (uint32_t)touch(mesh, &own[k], i);
             }
         }
     }
@@ -229,7 +247,7 @@ static uint32_t count_of_leaf(const knurl_mesh *mesh, const knurl_bvh_node *leaf
             } else if (node->first >= leaf->first) {
                 const uint64_t tests = (uint64_t)count * node->count;
                 *steps -= tests < *steps ? tests : *steps;
-                pairs += count_pairs(mesh, own, count, node);
+                pairs += count_pairs(mesh, own, count, &box, node);
             }
         }
     }

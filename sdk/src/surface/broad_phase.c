@@ -77,8 +77,8 @@ static knurl_result build_hierarchy(knurl_heap *heap, knurl_broad_index *index, 
     uint32_t *order = knurl_heap_alloc(heap, count, sizeof *order);
     knurl_result result = boxes && order ? KNURL_OK : KNURL_ERROR_MEMORY;
     for (uint32_t i = 0; !result && i < count; i++) {
-        memcpy(boxes[i].min, index->boxes[still[i]], sizeof boxes[i].min);
-        memcpy(boxes[i].max, index->boxes[still[i]] + 3, sizeof boxes[i].max);
+        const float *box = index->boxes[still[i]];
+        boxes[i] = (knurl_box){{box[0], box[1], box[2]}, {box[3], box[4], box[5]}};
     }
     result = result ? result : knurl_bvh_build(heap, boxes, count, LEAF_SIZE, order, &index->nodes, &index->node_count);
     for (uint32_t i = 0; !result && i < count; i++) {
