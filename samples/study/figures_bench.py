@@ -47,14 +47,10 @@ def warm(ax, cases, key):
         for name, x in PLACES.items():
             if name + suffix in cases:
                 ax.plot(x, cases[name + suffix][key], **style)
-    for name, x in PLACES.items():
+    for name, x in (*PLACES.items(), *((name, cases[name]["triangles"]) for name in MESHES if name in cases)):
         if name in cases:
             lowest = min(cases[name + suffix][key] for suffix, *_ in FEELS if name + suffix in cases)
-            say(ax, number(cases[name][key]), x, lowest, "center", "top", 8.5, ACCENT, 0, -6, "data")
-    for name in MESHES:
-        if name in cases:
-            lowest = min(cases[name + suffix][key] for suffix, *_ in FEELS if name + suffix in cases)
-            say(ax, number(cases[name][key]), cases[name]["triangles"], lowest, "center", "top", 8.5, ACCENT, 0, -6, "data")
+            say(ax, number(cases[name][key]), x, lowest, "center", "top", 8.5, ACCENT, 0, -6, "data", halo=True)
 
 
 def paced(ax, cases, key):
@@ -63,7 +59,7 @@ def paced(ax, cases, key):
         points.append((cases["paced_mesh_100k"]["triangles"], cases["paced_mesh_100k"][key]))
     for x, y in points:
         ax.plot(x, y, "o", mfc="white", mec=ACCENT, mew=1.4, ms=6.5, zorder=5)
-        say(ax, number(y), x, y, "left", "center", 8.5, ACCENT, 8, 0, "data")
+        say(ax, number(y), x, y, "left", "center", 8.5, ACCENT, 8, 0, "data", halo=True)
 
 
 def frame(ax, title, about):
