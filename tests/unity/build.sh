@@ -3,7 +3,7 @@
 # warnings as errors. usage: build.sh FOLDER
 # FOLDER/            the package as an editor compiles it, with tests
 # FOLDER/player/     the package as in a player: without UNITY_EDITOR
-# FOLDER/newest/     as Unity 7 compiles it
+# FOLDER/newest/     as Unity 7 compiles it, with both importers
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
@@ -57,7 +57,7 @@ while read -r shown; do # the examples in its README; serialised fields are not 
 done < <(/usr/bin/python3 -B "$root/tests/docs/snippets.py" write csharp "$out" bindings/unity)
 compile Knurl.Haptics.Editor.dll "$out" -target:library "${editor[@]}" -r:UnityEngine.dll -r:UnityEditor.dll \
     -r:Knurl.Haptics.dll -- "$package"/Editor/**/*.cs
-newest=("${editor[@]}" -define:UNITY_7000_0_OR_NEWER -r:UnityEngine.dll -r:UnityEditor.dll)
+newest=("${editor[@]}" -define:UNITY_7000_0_OR_NEWER,KNURL_UNITYGLTF,KNURL_GLTFAST -r:UnityEngine.dll -r:UnityEditor.dll)
 compile Knurl.Haptics.dll "$out/newest" -target:library "${newest[@]}" -- "$package"/Runtime/**/*.cs
 compile Knurl.Haptics.Editor.dll "$out/newest" -target:library "${newest[@]}" -r:Knurl.Haptics.dll -- "$package"/Editor/**/*.cs
 # The optional assemblies for importers, with stand-ins for these.

@@ -119,6 +119,8 @@ class Assemblies(unittest.TestCase):
             definition = self.definitions["Importers/" + folder]
             defines = {define["name"]: define["define"] for define in definition["versionDefines"]}
             self.assertEqual(definition["defineConstraints"], [defines[package_name]])
+            mine = [define for define in definition["versionDefines"] if define["name"] == package_name]
+            self.assertIn(mine[0], self.definitions["Editor"]["versionDefines"])  # files are imported again when it appears
 
     def test_of_the_package_are_seen_by_games_and_samples(self):
         for folder in ("Runtime", "Editor"):

@@ -2,7 +2,6 @@
 using System;
 using System.Collections.Generic;
 using System.IO;
-using System.Linq;
 using UnityEditor;
 using UnityEngine;
 
@@ -16,28 +15,26 @@ namespace Knurl.Editing
         /// <summary>What files with tags depend on: they are imported again when it changes.</summary>
         internal const string Dependency = "com.knurl.haptics/tags";
 
+        /// <summary>What the result of an import depends on besides the file: the package's version, and the importers that
+        /// Knurl has a part for.</summary>
+        const string Basis = NativeMethods.Version
+#if KNURL_UNITYGLTF
+            + " UnityGLTF"
+#endif
+#if KNURL_GLTFAST
+            + " glTFast"
+#endif
+            ;
+
         /// <summary>At each start and after each compilation. Unity imports the files at its next refresh.</summary>
         [InitializeOnLoadMethod]
         static void Register()
         {
             if (!AssetDatabase.IsAssetImportWorkerProcess()) // a worker must not change dependencies
             {
-                AssetDatabase.RegisterCustomDependency(Dependency, Hash128.Compute(Basis(LoadedAssemblies())));
+                AssetDatabase.RegisterCustomDependency(Dependency, Hash128.Compute(Basis));
                 EditorApplication.delayCall += ImportOnce;
             }
-        }
-
-        static IEnumerable<string> LoadedAssemblies()
-        {
-            return AppDomain.CurrentDomain.GetAssemblies().Select(assembly => assembly.GetName().Name);
-        }
-
-        /// <summary>What the result of an import depends on besides the file: the package's version, and the importers that
-        /// Knurl has a part for.</summary>
-        internal static string Basis(IEnumerable<string> assemblies)
-        {
-            string[] parts = { "Knurl.Haptics.UnityGLTF", "Knurl.Haptics.glTFast" };
-            return NativeMethods.Version + " " + string.Join(" ", parts.Intersect(assemblies).ToArray());
         }
 
         /// <summary>Files that were in the project before the package do not depend on it yet.</summary>
