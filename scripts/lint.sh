@@ -35,7 +35,7 @@ changed_sources() {
 }
 
 check_sources() {
-    local windows='(_windows\.c|^tests/windows/.*)$' debug='^(sdk/src/base/rule|tests/base/test_rules)\.c$' units
+    local windows='((_windows|transport_com)\.c|^tests/windows/.*)$' debug='^(sdk/src/base/rule|tests/base/test_rules)\.c$' units
     /usr/bin/python3 -B tests/tool/printing.py
     build/lint-venv/bin/clang-format --dry-run --Werror "$@"
     # Not part of this build: fuzz targets, the selector of mutants, code for browsers, code that is built with an

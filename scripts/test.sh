@@ -119,7 +119,7 @@ test_windows() {
         echo "run: SKIPPED: Windows: nothing was tested for it" >&2
         return 0
     fi
-    build release knurl_tool knurl_study_tool emulate_rawhid emulate_inverse3 # for comparison, and a device for both
+    build release knurl_tool knurl_study_tool emulate_rawhid emulate_inverse3 emulate_serial # for comparison, and devices
     for preset in mingw mingw-dll; do
         build "$preset"
         run_ctest "$preset" ""

@@ -96,7 +96,7 @@ class WindowsArm64(unittest.TestCase):
         said = say("llvm-readobj", "--coff-imports", self.library)
         names = {line.split()[1] for line in said.splitlines() if line.startswith("  Name: ")}
         others = {name for name in names if not name.startswith("api-ms-win-crt-")} # Windows' own C library
-        self.assertEqual(others, {"KERNEL32.dll", "WINMM.dll"})
+        self.assertEqual(others, {"ADVAPI32.dll", "KERNEL32.dll", "WINMM.dll"})
 
 
 if __name__ == "__main__":

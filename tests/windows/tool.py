@@ -3,8 +3,8 @@
 usage: tool.py KNURL_EXE LIBRARIES KNURL ASSETS WINE_PREFIX [[CFGMGR32] EMULATE]
 KNURL_EXE: beside it knurl_study.exe and the DLLs. LIBRARIES: a folder of those that drivers load.
 With CFGMGR32 (cfgmgr32.c) and EMULATE (tests/device/rawhid/emulate_rawhid.c) only the raw HID driver is tried, on an emulated
-device; with EMULATE alone (tests/device/inverse3/emulate_inverse3.c) only the Inverse3's, on an emulated service. Nothing
-else may use the wine prefix meanwhile. Exit code 77: KNURL, or EMULATE, is missing.
+device; with EMULATE alone only the Inverse3's, on an emulated service (tests/device/inverse3/emulate_inverse3.c), or the
+serial one, on a pseudo terminal (tests/device/rawhid/emulate_serial.c). Nothing else may use the wine prefix meanwhile. Exit code 77: KNURL, or EMULATE, is missing.
 SPDX-License-Identifier: MIT"""
 import json
 import math
@@ -269,9 +269,94 @@ class Service(Home):
             self.assertRaises(TimeoutError, elsewhere.accept)
 
 
+class Serial(Home):
+    """A WoodenHaptics behind a pseudo terminal, which wine calls COM9. Wine lets any number of programs open it."""
+    PORTS = r"HKLM\Software\Wine\Ports"
+    TEENSY = r"HKLM\System\CurrentControlSet\Enum\USB\VID_16C0&PID_0483"
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.port = cls.home / "port"
+        cls.registry("add", cls.PORTS, "/v", "COM9", "/d", cls.port)
+        cls.restart()  # wine reads its ports when it starts
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.registry("delete", cls.PORTS)
+        cls.restart()
+        super().tearDownClass()
+
+    @classmethod
+    def registry(cls, *arguments):
+        done = Run(cls.home, ["wine", "reg", *arguments, "/f"]).end()
+        if done.code != 0:
+            raise AssertionError(done.out + done.err)
+
+    @staticmethod
+    def restart():
+        for option in "-k", "-w":
+            subprocess.run(["wineserver", option], env=ENVIRONMENT, check=False, timeout=60)
+
+    def emulate(self):
+        """Until the test ends, which ends `cat`, too."""
+        self.port.unlink(missing_ok=True)
+        device = subprocess.Popen([STAND_IN[0], self.port, "--", "cat"], stdin=subprocess.PIPE)
+        self.addCleanup(lambda: (device.kill(), device.communicate()))
+        while not self.port.is_symlink():
+            time.sleep(0.01)
+        return device
+
+    def start(self, uri, seconds, *more):
+        return Run(self.home, ["wine", self.exe, "run", "plate_1d.glb", "--device", uri, "--seconds", seconds, *more])
+
+    def felt(self, uri):
+        for _ in range(4):  # on a busy machine the emulation stalls, and the device is lost
+            done = self.start(uri, 1).end()
+            if done.code == 0:
+                break
+        self.assertEqual(done.code, 0, done.err)
+        summary = json.loads(done.out)
+        self.assertIn("WoodenHaptics", summary["device"])
+        self.assertGreater(summary["contact_s"], 0.1)
+        self.assertGreater(summary["force_max_n"], 0.1)  # 400 N/m, a fraction of a millimetre deep
+
+    def refused(self, uri, words):
+        done = self.start(uri, 0.1).end()
+        self.assertEqual(done.code, 1)
+        self.assertIn(words, done.err)
+
+    def test_a_plate_is_felt_through_a_named_port(self):
+        self.emulate()
+        self.felt("serial:COM9")
+        self.felt(r"serial:\\.\COM9")
+
+    def test_the_port_of_a_teensy_is_found(self):
+        self.refused("serial", b"16c0:0483) and found none; plug it in, or name its port as serial:COM3")
+        for serial, name in ("100", "COM77"), ("200", "COM9"):  # the first was connected once
+            self.registry("add", f"{self.TEENSY}\\{serial}\\Device Parameters", "/v", "PortName", "/d", name)
+        self.addCleanup(self.registry, "delete", self.TEENSY)
+        self.emulate()
+        self.felt("serial")
+
+    def test_a_port_that_cannot_be_opened_is_told_with_the_reason(self):
+        self.refused("serial:COM77", b"COM77 could not be opened: there is no such port")
+        self.refused(r"serial:C:\windows\win.ini", b"expected a serial port, such as COM3")
+
+    def test_a_port_that_goes_away_is_a_lost_device(self):
+        device = self.emulate()
+        going = self.start("serial:COM9", 30, "--out", "felt.csv")
+        while not list(self.home.glob("felt.csv.*.part")) and going.process.poll() is None:
+            time.sleep(0.01)
+        time.sleep(0.3)
+        device.terminate()
+        self.assertIn(b"lost", going.end().err)
+
+
 if __name__ == "__main__":
     for needed in [NATIVE, *STAND_IN]:
         if not needed.exists():
             print(f"skipped: there is no {needed}")
             sys.exit(77)
-    unittest.main(argv=[sys.argv[0], ["Tool", "Service", "Emulated"][len(STAND_IN)]])
+    suites = {"emulate_inverse3": "Service", "emulate_serial": "Serial"}
+    unittest.main(argv=[sys.argv[0], suites.get(STAND_IN[0].name, "Emulated") if STAND_IN else "Tool"])

@@ -91,7 +91,7 @@ static knurl_result find_port(rawhid *r, knurl_rawhid_found *found) {
                ? KNURL_OK
                : knurl_fail(KNURL_ERROR_DEVICE_LOST,
                             "device 'serial': looked for the serial port of a Teensy (%04x:%04x) and found none; plug "
-                            "it in, or name its port as serial:/dev/ttyACM0",
+                            "it in, or name its port as serial:" KNURL_SERIAL_EXAMPLE,
                             KNURL_SERIAL_VENDOR, KNURL_SERIAL_PRODUCT);
 }
 
@@ -255,24 +255,21 @@ const knurl_driver knurl_rawhid_driver = {
 
 static void serial_list(knurl_listings *listings) {
     static const char name[] = "WoodenHaptics on a serial port";
-    const knurl_serial_ports *ports = knurl_serial_tty();
+    const knurl_serial_ports *ports = knurl_serial_system();
     char path[64];
-    if (!ports) {
-        knurl_listings_add(listings, "serial", name, "this build has no serial ports: they are for Linux and macOS");
-    } else if (ports->find(ports->user, path, sizeof path)) {
+    if (ports->find(ports->user, path, sizeof path)) {
         knurl_listings_add(listings, "serial", name, "%s", "");
     } else {
-        knurl_listings_add(listings, "serial", name,
-                           "not connected (looked for a Teensy, %04x:%04x, among /dev/ttyACM*): plug it in; another "
-                           "port is opened as serial:PATH",
-                           KNURL_SERIAL_VENDOR, KNURL_SERIAL_PRODUCT);
+        knurl_listings_add(
+            listings, "serial", name,
+            "not connected (looked for the serial port of a Teensy, %04x:%04x): plug it in; another port "
+            "is opened as serial:PORT, such as serial:" KNURL_SERIAL_EXAMPLE,
+            KNURL_SERIAL_VENDOR, KNURL_SERIAL_PRODUCT);
     }
 }
 
 static knurl_result serial_open(const char *options, knurl_device **device) {
-    const knurl_serial_ports *ports = knurl_serial_tty();
-    return ports ? knurl_serial_open(options, ports, device)
-                 : knurl_fail(KNURL_ERROR_UNSUPPORTED, "device 'serial': this build has no serial ports");
+    return knurl_serial_open(options, knurl_serial_system(), device);
 }
 
 const knurl_driver knurl_serial_driver = {

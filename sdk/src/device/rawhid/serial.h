@@ -29,8 +29,16 @@ typedef struct knurl_serial_ports {
     int (*open)(void *user, const char *path, knurl_serial_wire *wire, char *why, size_t why_size);
 } knurl_serial_ports;
 
-/* The system's serial ports; null if this build does not support them. */
-const knurl_serial_ports *knurl_serial_tty(void);
+#if defined(_WIN32)
+#define KNURL_SERIAL_EXAMPLE "COM3"
+#elif defined(__APPLE__)
+#define KNURL_SERIAL_EXAMPLE "/dev/cu.usbmodem1101"
+#else
+#define KNURL_SERIAL_EXAMPLE "/dev/ttyACM0"
+#endif
+
+/* The system's serial ports. */
+const knurl_serial_ports *knurl_serial_system(void);
 
 /* A serial port as a bus for the driver. */
 typedef struct knurl_serial_bus {

@@ -1,15 +1,9 @@
 /* Serial ports with termios. SPDX-License-Identifier: MIT */
 #include "device/rawhid/serial.h"
 
+#if !defined(_WIN32)
+
 #include "device/driver.h"
-
-#if defined(_WIN32)
-
-const knurl_serial_ports *knurl_serial_tty(void) {
-    return NULL;
-}
-
-#else
 
 #include <errno.h>
 #include <fcntl.h>
@@ -128,7 +122,7 @@ static int tty_find(void *user, char *path, size_t size) {
     return 0;
 }
 
-const knurl_serial_ports *knurl_serial_tty(void) {
+const knurl_serial_ports *knurl_serial_system(void) {
     static const knurl_serial_ports ports = {NULL, tty_find, tty_open};
     return &ports;
 }
