@@ -102,21 +102,27 @@ static int read_one(keys *k, const char *option, const char *key, const char *te
     return TOOL_OK;
 }
 
+static int refuse_axis(const keys *k) {
+    return tool_error(TOOL_USAGE, "tag: --axis: expected X,Y,Z in object space, not all 0, found '%s'", k->axis);
+}
+
 static int read_axis(keys *k) {
     const char *text = k->axis;
     char *end = NULL;
+    int is_zero = 1;
     put_key(k, "axis");
     for (int i = 0; i < 3; i++) {
         const double component = strtod(text, &end);
         if (end == text || !isfinite(component) || *end != (i < 2 ? ',' : '\0')) {
-            return tool_error(TOOL_USAGE, "tag: --axis: expected X,Y,Z in object space, found '%s'", k->axis);
+            return refuse_axis(k);
         }
+        is_zero = is_zero && component == 0.0;
         put(k, i ? "," : "[");
         put_number(k, component);
         text = end + 1;
     }
     put(k, "]");
-    return TOOL_OK;
+    return is_zero ? refuse_axis(k) : TOOL_OK;
 }
 
 /* A word of a given set. The loader checks the words of other keys, and names the expected ones. */

@@ -122,6 +122,8 @@ TEST(wrong_values_name_key_expected_and_found) {
                          {bars, "knurl.spatial_frequency: expected a number >= 0 or an array of 2", "found "});
     for (const char *value : {"1", "[1,0]", "[0,0,0]", "[1,0,0,0]", "[1,0,\"z\"]"})
         assert_tag_fails(with(R"("axis":)" + std::string(value)), {bars, "knurl.axis: expected an array of 3 numbers"});
+    assert_tag_fails(with(R"("axis":[0,0,0])"), {bars, "(a direction in object space), found 0"});
+    assert_tag_fails(with(R"("axis":[1,0,"z"])"), {bars, "(a direction in object space), found 'z'"});
     for (const char *value : {"1", "\"uvs\"", "[\"box\"]", "null"})
         assert_tag_fails(with(R"("coordinates":)" + std::string(value)),
                          {bars, "knurl.coordinates: expected 'auto' or 'box', found "});

@@ -119,6 +119,7 @@ TEST(a_refused_edit_writes_nothing) {
         {"%G|--amplitude|0.2|--in-place", 2, "--amplitude: expected a length with its unit|found '0.2'"},
         {"%G|--orientation|45|--in-place", 2, "--orientation: expected an angle|'45'"},
         {"%G|--axis|1,0|--in-place", 2, "--axis: expected X,Y,Z"},
+        {"%G|--axis|0,0,-0|--in-place", 2, "--axis: expected X,Y,Z|not all 0, found '0,0,-0'"},
         {"%G|--ridges|1e-320m|--in-place", 2, "--ridges: expected|found '1e-320m'"},
         {"%G|--method|S2\n|--in-place", 2, "--method: expected a word"},
         {"%G|--smooth|perhaps|--in-place", 2, "--smooth: expected yes or no"},

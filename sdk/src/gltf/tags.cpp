@@ -17,21 +17,26 @@ struct Entry {
     const Json &value;
 
     [[noreturn]] void refuse(const char *expected) const {
-        extras.refuse_value(key, expected, value);
+        refuse(expected, value);
+    }
+
+    /// found: a part of the value.
+    [[noreturn]] void refuse(const char *expected, const Json &found) const {
+        extras.refuse_value(key, expected, found);
     }
 };
 
 double number(const Entry &entry, const Json &value, const char *expected) {
     const std::optional<double> x = value.number();
     if (!x || !knurl_is_finite(*x))
-        entry.refuse(expected);
+        entry.refuse(expected, value);
     return *x;
 }
 
 double number_from_0(const Entry &entry, const Json &value, const char *expected) {
     const double x = number(entry, value, expected);
     if (x < 0.0)
-        entry.refuse(expected);
+        entry.refuse(expected, value);
     return x;
 }
 
@@ -63,7 +68,7 @@ void read_axis(Tag &tag, const Entry &entry) {
     // Scale the largest component to 1, so that squares neither overflow nor underflow.
     const double largest = std::max({std::fabs(axis[0]), std::fabs(axis[1]), std::fabs(axis[2])});
     if (largest == 0.0)
-        entry.refuse(expected);
+        entry.refuse(expected, three->front());
     for (double &component : axis)
         component /= largest;
     tag.axis = axis;
