@@ -221,9 +221,11 @@ static int inverse3_receive(void *self, int milliseconds, knurl_inverse3_message
     return got > 0 ? 1 : got;
 }
 
-static int inverse3_connect(void *user, int port, knurl_inverse3_channel *channel, char *why, size_t why_size) {
+static int inverse3_connect(void *user, int port, knurl_inverse3_filter filter, knurl_inverse3_channel *channel,
+                            char *why, size_t why_size) {
     const knurl_inverse3_channel made = {user, inverse3_send, inverse3_receive, leave_open};
     (void)port;
+    (void)filter;
     (void)why;
     (void)why_size;
     *channel = made;

@@ -19,7 +19,8 @@ static struct {
     int connections;
     const char *said; /* instead of every answer */
     size_t said_size;
-    const char *event; /* to be told at the port of events; or null */
+    const char *events[2];        /* to be told at the port of events, the first before the second; or null */
+    knurl_inverse3_filter filter; /* of that port */
     uint64_t random;
     int64_t due[QUEUE]; /* ns: when answers come */
     uint32_t first, count;
@@ -109,15 +110,21 @@ static int event_receive(void *self, int milliseconds, knurl_inverse3_message *m
     (void)self;
     (void)milliseconds;
     knurl_system_mutex_lock(&d.mutex);
-    const int came = d.event != NULL;
-    message->text = d.event;
-    message->size = came ? strlen(d.event) : 0;
-    d.event = NULL;
+    int came = 0;
+    for (int i = 0; i < 2 && d.events[i]; i++) {
+        if (d.filter.takes(d.filter.self, d.events[i], strlen(d.events[i]))) {
+            came++;
+            message->text = d.events[i];
+            message->size = strlen(d.events[i]);
+        }
+    }
+    d.events[0] = d.events[1] = NULL;
     knurl_system_mutex_unlock(&d.mutex);
     return came;
 }
 
-static int service_connect(void *user, int port, knurl_inverse3_channel *channel, char *why, size_t why_size) {
+static int service_connect(void *user, int port, knurl_inverse3_filter filter, knurl_inverse3_channel *channel,
+                           char *why, size_t why_size) {
     const int is_events = port == 10020;
     const knurl_inverse3_channel opened = {&d, channel_send, is_events ? event_receive : channel_receive,
                                            channel_close};
@@ -127,7 +134,9 @@ static int service_connect(void *user, int port, knurl_inverse3_channel *channel
     const int works = !d.is_ended;
     if (works) {
         d.connections++;
-        if (!is_events) {
+        if (is_events) {
+            d.filter = filter;
+        } else {
             d.first = d.count = 0;
             answer(inverse3_sim_greet(&d.sim, seconds(), d.newest));
         }
@@ -181,7 +190,7 @@ void inverse3_double_say(const char *text, size_t size) {
 
 void inverse3_double_tell(const char *event) {
     knurl_system_mutex_lock(&d.mutex);
-    d.event = event;
+    d.events[d.events[0] != NULL] = event;
     knurl_system_mutex_unlock(&d.mutex);
 }
 

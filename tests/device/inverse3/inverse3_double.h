@@ -24,7 +24,7 @@ const knurl_inverse3_service *inverse3_double_service(void);
 /** Replaces every answer from now on; null: real answers. */
 void inverse3_double_say(const char *text, size_t size);
 
-/** The next event at its other port. */
+/** The next event at its other port; the latest two of those that come within one exchange are kept. */
 void inverse3_double_tell(const char *event);
 
 /** Connections that are open. */

@@ -107,6 +107,7 @@ TEST(its_emergency_brake_is_an_event_and_the_force_comes_back_by_a_ramp) {
     wait_ms(20);
     CHECK_CLOSE(look().force[2], 2.0, 1e-12);
     inverse3_double_tell(SAFETY("049D", "ebrake_triggered"));
+    inverse3_double_tell(SAFETY("0A11", "ebrake_released")); /* within the same exchange */
     wait_ms(100);
     assert_int_equal(count_events(device, KNURL_FAULT_FORCE_OFF, &value), 1);
     CHECK_SAME(value, (long double)KNURL_FORCE_OFF_BRAKE);

@@ -23,10 +23,17 @@ typedef struct knurl_inverse3_channel {
     void (*close)(void *self);
 } knurl_inverse3_channel;
 
+/* Chooses the messages that a channel receives; others are dropped, so that none of them replaces a chosen one. */
+typedef struct knurl_inverse3_filter {
+    int (*takes)(const void *self, const char *text, size_t size); /* null: all. [any thread, one at a time] */
+    const void *self;
+} knurl_inverse3_filter;
+
 typedef struct knurl_inverse3_service {
     void *user;
     /* Connects to a port of this machine: returns 1, or 0 and the reason. [not the haptic thread] */
-    int (*connect)(void *user, int port, knurl_inverse3_channel *channel, char *why, size_t why_size);
+    int (*connect)(void *user, int port, knurl_inverse3_filter filter, knurl_inverse3_channel *channel, char *why,
+                   size_t why_size);
 } knurl_inverse3_service;
 
 /* The system's, through libwebsockets; null if that is missing, with the remedy in `why`. */

@@ -33,6 +33,7 @@ typedef struct websocket {
     size_t sizes[3];
     size_t size; /* of the message that is being received */
     int is_too_long;
+    knurl_inverse3_filter filter;
     char part[PART];
     /* atomics */
     uint32_t is_open, is_gone, is_sending;
@@ -93,11 +94,14 @@ static void take_part(websocket *w, const WINHTTP_WEB_SOCKET_STATUS *part) {
     }
     if (part->eBufferType == WINHTTP_WEB_SOCKET_UTF8_MESSAGE_BUFFER_TYPE ||
         part->eBufferType == WINHTTP_WEB_SOCKET_BINARY_MESSAGE_BUFFER_TYPE) {
-        w->sizes[w->box.back] = w->is_too_long ? 0 : w->size;
+        const uint32_t at = w->box.back;
+        w->sizes[at] = w->is_too_long ? 0 : w->size;
         w->is_too_long = 0;
         w->size = 0;
-        knurl_mailbox_post(&w->box);
-        (void)__atomic_fetch_add(&w->count, 1, __ATOMIC_RELEASE);
+        if (!w->filter.takes || w->filter.takes(w->filter.self, w->texts[at], w->sizes[at])) {
+            knurl_mailbox_post(&w->box);
+            (void)__atomic_fetch_add(&w->count, 1, __ATOMIC_RELEASE);
+        }
     }
     receive_more(w);
 }
@@ -260,9 +264,13 @@ static websocket *allocate(void) {
     return w;
 }
 
-static int connect_to(void *user, int port, knurl_inverse3_channel *channel, char *why, size_t why_size) {
+static int connect_to(void *user, int port, knurl_inverse3_filter filter, knurl_inverse3_channel *channel, char *why,
+                      size_t why_size) {
     websocket *w = allocate();
     (void)user;
+    if (w) {
+        w->filter = filter;
+    }
     if (!w || !start(w, port)) {
         const unsigned long error = w ? knurl_load_relaxed(&w->last_error) : 0;
         (void)snprintf(why, why_size, !w ? "no memory" : error ? "error %lu" : "no answer", error);

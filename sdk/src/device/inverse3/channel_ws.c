@@ -42,6 +42,7 @@ typedef struct websocket {
     int coming;      /* index of the one being received */
     int is_too_long; /* of the one being received */
     int count;       /* complete ones since the last call */
+    knurl_inverse3_filter filter;
     knurl_pool pool;
 } websocket;
 
@@ -99,9 +100,11 @@ static void take_part(websocket *w, const char *part, size_t size, int is_last) 
     if (is_last) {
         w->sizes[at] = w->is_too_long ? 0 : w->sizes[at];
         w->is_too_long = 0;
-        w->coming = !at;
+        if (!w->filter.takes || w->filter.takes(w->filter.self, w->texts[at], w->sizes[at])) {
+            w->coming = !at;
+            w->count++;
+        }
         w->sizes[w->coming] = 0;
-        w->count++;
     }
 }
 
@@ -250,9 +253,13 @@ static int start(websocket *w, int port) {
     return w->is_open && !w->is_gone;
 }
 
-static int connect_to(void *user, int port, knurl_inverse3_channel *channel, char *why, size_t why_size) {
+static int connect_to(void *user, int port, knurl_inverse3_filter filter, knurl_inverse3_channel *channel, char *why,
+                      size_t why_size) {
     websocket *w = calloc(1, sizeof *w);
     (void)user;
+    if (w) {
+        w->filter = filter;
+    }
     if (!w || !start(w, port)) {
         (void)snprintf(why, why_size, "%s", !w || !w->context ? "no memory" : w->why[0] ? w->why : "no answer");
         if (w) {

@@ -147,8 +147,12 @@ static int take_state(inverse3 *d, const knurl_inverse3_message *message, knurl_
     return knurl_link_take_trouble(&d->link, trouble, cause);
 }
 
-/* Of events that come within one exchange only the last is read. If no more come, the brake stays as it was told last.
- */
+static int is_own_brake(const void *self, const char *text, size_t size) {
+    const inverse3 *d = self;
+    return knurl_inverse3_read_brake(text, size, d->id) >= 0;
+}
+
+/* If no event has come, the brake stays as it was told last. */
 static void hear_events(inverse3 *d) {
     knurl_inverse3_message message = {NULL, 0};
     const int came = d->events.self ? d->events.receive(d->events.self, 0, &message) : 0;
@@ -195,7 +199,8 @@ static knurl_result receive_first(const knurl_inverse3_service *service, int por
     char why[160] = "";
     knurl_inverse3_message message = {NULL, 0};
     memset(state, 0, sizeof *state);
-    if (!service->connect(service->user, port, channel, why, sizeof why)) {
+    const knurl_inverse3_filter all = {NULL, NULL};
+    if (!service->connect(service->user, port, all, channel, why, sizeof why)) {
         return knurl_fail(KNURL_ERROR_DEVICE_LOST,
                           "device 'inverse3': the Haply Inverse Service does not answer at localhost:%d (%s); start it "
                           "(the Haply Hub does), or name its port by ?port=",
@@ -281,7 +286,8 @@ static knurl_result connect(inverse3 *d) {
     result = result ? result : choose(d, &state);
     result = result ? result : configure(d);
     if (!result) { /* without it all else works */
-        (void)d->service->connect(d->service->user, EVENTS_PORT, &d->events, ignored, sizeof ignored);
+        const knurl_inverse3_filter brakes = {is_own_brake, d};
+        (void)d->service->connect(d->service->user, EVENTS_PORT, brakes, &d->events, ignored, sizeof ignored);
     }
     result = result ? result : knurl_link_open(&d->link, &d->base, exchange, NATIVE_RATE);
     if (result) {
