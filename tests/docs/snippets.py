@@ -31,6 +31,8 @@ AROUND = {
                               "void edit(knurl_scene *scene, knurl_surface_id door, const double position[3],\n"
                               "          const double rotation[4], knurl_surface_id floor, knurl_surface_id crate) {\n"
                               "knurl_material_desc ice; knurl_material_desc_init(&ice, sizeof ice);\n", "}\n"),
+    ("docs/devices.md", "c"): ("#include <knurl/knurl.h>\nvoid use(knurl_scene *scene);\n"
+                               "void use(knurl_scene *scene) {\n", "}\n"),
     ("docs/effects.md", "c"): ("#include <knurl/knurl.h>\nvoid stick(knurl_scene *scene);\n"
                                "void stick(knurl_scene *scene) {\n", "}\n"),
     ("README.md", "cmake"): ("cmake_minimum_required(VERSION 3.16)\nproject(game LANGUAGES C CXX)\n"
