@@ -212,7 +212,7 @@ static void check_priority(void *kept) {
 
 TEST(a_thread_that_runs_in_real_time_keeps_the_priority_that_it_has) {
     int kept = 0;
-    knurl_thread *thread = knurl_system_start_thread(check_priority, &kept, 65536);
+    knurl_thread *thread = knurl_system_start_thread(check_priority, &kept, (size_t)256 * 1024);
     assert_non_null(thread);
     knurl_system_join_thread(thread);
     if (kept == 0) {

@@ -317,7 +317,7 @@ static void do_nothing(void *argument) {
 }
 
 int main(void) {
-    knurl_thread *first = knurl_system_start_thread(do_nothing, NULL, (size_t)64 * 1024);
+    knurl_thread *first = knurl_system_start_thread(do_nothing, NULL, (size_t)256 * 1024);
     if (first) { /* the thread sanitizer brings one of its own along */
         knurl_system_join_thread(first);
     }

@@ -45,7 +45,7 @@ static void stop_from_thread(void *loop) {
 }
 
 static knurl_thread *start_a_stop(void) {
-    knurl_thread *thread = knurl_system_start_thread(stop_from_thread, r.loop, 65536);
+    knurl_thread *thread = knurl_system_start_thread(stop_from_thread, r.loop, (size_t)256 * 1024);
     assert_non_null(thread);
     return thread;
 }
