@@ -378,10 +378,10 @@ TEST(a_hip_that_is_not_there_and_a_workspace_without_size_are_refused) {
     knurl_hip_desc good;
     knurl_workspace workspace;
     knurl_hip_desc_init(&good, sizeof good);
+    knurl_workspace_set_identity(&workspace);
     CHECK_REFUSED(knurl_scene_configure_hip(scene, 2, &good), KNURL_ERROR_ARGUMENT, good);
     CHECK_REFUSED(knurl_scene_get_workspace(scene, 0, &workspace), KNURL_ERROR_STATE, workspace);
     knurl_hip_desc bad = good;
-    knurl_workspace_set_identity(&workspace);
     workspace.scale = 0.0;
     bad.workspace = &workspace;
     CHECK_REFUSED(knurl_scene_configure_hip(scene, 0, &bad), KNURL_ERROR_ARGUMENT, bad);
