@@ -1,6 +1,6 @@
 # Downloads packages of another Debian than this host's with a private apt: nothing is installed on the host. Source
 # this file; it needs $dir (the destination), PACKAGES, and give_up(), which is called with the reason of a failure.
-# download SUITE puts them into $dir/apt/cache/archives.
+# download SUITE [ARCHITECTURE] puts them into $dir/apt/cache/archives.
 for tool in apt-get dpkg-deb tar; do
     command -v $tool >/dev/null || give_up "there is no $tool"
 done
@@ -31,13 +31,14 @@ apt_apart() {
         -o Dir::Etc::preferences=/dev/null -o Dir::Etc::preferencesparts="$apt/preferences" \
         -o Dir::State="$apt/state" -o Dir::State::status="$apt/status" \
         -o Dir::Cache="$apt/cache" -o Dir::Log="$apt/log" -o APT::Sandbox::User=root \
+        ${architecture:+-o APT::Architecture="$architecture" -o APT::Architectures="$architecture"} \
         -o APT::Install-Recommends=0 -o Acquire::Languages=none -o Acquire::Check-Valid-Until=false \
         -o Acquire::Retries=3 -o Acquire::http::Timeout=20 \
         -o Acquire::IndexTargets::deb::DEP-11::DefaultEnabled=false -o APT::Update::Error-Mode=any "$@"
 }
 
 download() {
-    local suite=$1 apt=$dir/apt
+    local suite=$1 architecture=${2:-} apt=$dir/apt
     rm -rf "$apt"
     mkdir -p "$apt"/{sources,preferences,log,state/lists/partial,cache/archives/partial}
     : >"$apt/status"

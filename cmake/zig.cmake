@@ -1,6 +1,7 @@
 # macOS (arm64, x86-64), Linux and Windows (arm64) from Linux, with the compiler in build/zig, from cmake/zig.sh.
-# KNURL_ZIG_TARGET: Zig's name of the target; presets set it.
-set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES KNURL_ZIG_TARGET)
+# KNURL_ZIG_TARGET: Zig's name of the target; presets set it. KNURL_ZIG_ROOT: further libraries for it, e.g. from
+# cmake/arm64.sh.
+set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES KNURL_ZIG_TARGET KNURL_ZIG_ROOT)
 string(REGEX MATCH "^[^-]+" CMAKE_SYSTEM_PROCESSOR ${KNURL_ZIG_TARGET})
 if(KNURL_ZIG_TARGET MATCHES macos)
   set(CMAKE_SYSTEM_NAME Darwin)
@@ -28,3 +29,9 @@ set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
 set(ENV{PKG_CONFIG_LIBDIR} ${_zig}/prefix/lib/pkgconfig)
+if(KNURL_ZIG_ROOT)
+  list(APPEND CMAKE_FIND_ROOT_PATH ${KNURL_ZIG_ROOT})
+  set(CMAKE_LIBRARY_ARCHITECTURE ${CMAKE_SYSTEM_PROCESSOR}-linux-gnu)
+  set(ENV{PKG_CONFIG_LIBDIR}
+    $ENV{PKG_CONFIG_LIBDIR}:${KNURL_ZIG_ROOT}/usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/pkgconfig)
+endif()

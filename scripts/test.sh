@@ -189,6 +189,23 @@ test_elsewhere() {
     tests/package/elsewhere.py build build/release/knurl assets/plate_1d.glb
 }
 
+# The tests of the library and the tool as programs for arm64, under qemu; prints a note and continues if these cannot be
+# had. Left out are tests of this machine's compilers and packages, those in real time, and some of signals and of the
+# kernel, which qemu 7.2 does not emulate: it takes a SIGBUS or SIGSEGV that another process sends for a fault of its own.
+test_arm64() {
+    local tested='base|vibration|grating|motion|contact|scene|audio|loop|device|gltf|tool|fidelity|stability|bindings'
+    if ! (need_packages qemu-user) || ! prepare_zig ||
+        ! with_progress 'fetching libraries for arm64' build/arm64.log cmake/arm64.sh build/arm64 ||
+        ! with_progress 'trying qemu' build/arm64.log tests/package/under_qemu.sh build/arm64/root true; then
+        tail -n 1 build/arm64.log >&2 || true
+        echo 'run: SKIPPED: tests for arm64 under qemu: see above' >&2
+        return 0
+    fi
+    build linux-arm64-tests
+    (cd build/linux-arm64-tests && ../../tests/package/under_qemu.sh ../arm64/root ctest --output-on-failure -j "$(nproc)" \
+        -L "^($tested)\$" -LE '^(realtime|extended|docs|package|abi|python|web|blender|unity|godot)$' -E "^(exit_handlers|languages)\$")
+}
+
 # Tries the Blender extension in PyPI's releases of Blender; prints a note and continues if they cannot be had.
 soak_blender() {
     local code=0
@@ -230,6 +247,7 @@ soak() {
     tests/tool/ridges_corpus.py build/release/knurl build/ridges || failed+=(ridges_corpus)
     same_numbers || failed+=(same_numbers)
     test_elsewhere || failed+=('macOS and arm64')
+    (test_arm64) || failed+=('tests for arm64')
     (test_recipes) || failed+=(recipes)
     soak_blender || failed+=(blender)
     test_systems '' "$CURRENT_SYSTEM" "$NEWEST_SYSTEM" || failed+=('the two commands in other systems') # with warnings

@@ -16,7 +16,9 @@
 #include <unistd.h>
 
 /** Seconds after which a program that does not end is killed; the test fails then. */
+#ifndef PROCESS_PATIENCE /* longer under an emulator */
 #define PROCESS_PATIENCE 20
+#endif
 
 #define PROCESS_ARGUMENTS 32
 
