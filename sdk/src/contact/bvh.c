@@ -45,12 +45,9 @@ static double box_area(const knurl_box *b) {
     return x < 0.0 ? 0.0 : x * y + y * z + z * x;
 }
 
-static inline knurl_float4 centre(const knurl_box *b) {
-    return 0.5f * b->min + 0.5f * b->max;
-}
-
 static inline uint32_t bin_of(const knurl_box *b, const split *s) {
-    const float bin = (centre(b)[s->axis] - s->low) * s->scale;
+    const float middle = 0.5f * b->min[s->axis] + 0.5f * b->max[s->axis];
+    const float bin = (middle - s->low) * s->scale;
     return !(bin > 0.0f) ? 0 : bin >= (float)(BINS - 1) ? BINS - 1 : (uint32_t)bin; /* NaN, from huge boxes, is 0 */
 }
 
@@ -59,7 +56,7 @@ static split measure(const knurl_box *boxes, const range *r, knurl_box *bounds) 
     knurl_box centres = empty_box;
     knurl_box sum = empty_box;
     for (uint32_t i = r->begin; i < r->end; i++) {
-        const knurl_float4 middle = centre(&boxes[i]);
+        const knurl_float4 middle = 0.5f * boxes[i].min + 0.5f * boxes[i].max;
         const knurl_box at = {middle, middle};
         box_add(&sum, &boxes[i]);
         box_add(&centres, &at);
@@ -79,8 +76,8 @@ static split measure(const knurl_box *boxes, const range *r, knurl_box *bounds) 
     return s;
 }
 
-/* Picks the cheapest of the 15 splits between bins. */
-static void choose_bin(const knurl_box *boxes, const range *r, split *s) {
+/* Picks the cheapest of the 15 splits between bins. Leaves each box's bin in it, for partition(). */
+static void choose_bin(knurl_box *boxes, const range *r, split *s) {
     knurl_box bounds[BINS];
     uint32_t counts[BINS] = {0};
     double right_area[BINS];
@@ -90,6 +87,7 @@ static void choose_bin(const knurl_box *boxes, const range *r, split *s) {
     for (uint32_t i = r->begin; i < r->end; i++) {
         const uint32_t bin = bin_of(&boxes[i], s);
         box_add(&bounds[bin], &boxes[i]);
+        boxes[i].min[3] = (float)bin;
         counts[bin]++;
     }
     knurl_box sweep = empty_box;
@@ -116,7 +114,7 @@ static void choose_bin(const knurl_box *boxes, const range *r, split *s) {
 static uint32_t partition(const items *list, const range *r, const split *s) {
     uint32_t left = r->begin;
     for (uint32_t i = r->begin; i < r->end; i++) {
-        if (bin_of(&list->boxes[i], s) < s->bin) {
+        if (list->boxes[i].min[3] < (float)s->bin) {
             const knurl_box moved = list->boxes[i];
             const uint32_t place = list->places[i];
             list->boxes[i] = list->boxes[left];

@@ -19,7 +19,7 @@ typedef struct knurl_bvh_node {
     uint32_t count; /* leaf: number of triangles; inner: 0 */
 } knurl_bvh_node;
 
-/* The fourth numbers are 0. */
+/* The fourth numbers are 0 at first; a build uses them. */
 typedef struct knurl_box {
     knurl_float4 min, max;
 } knurl_box;
