@@ -56,7 +56,7 @@ static int leave_host(void) {
         return 0;
     }
     memset(&priority, 0, sizeof priority);
-    priority.sched_priority = 71; /* one above the host's threads, if permitted */
+    priority.sched_priority = 71;                                       /* one above the host's threads, if permitted */
     (void)pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority); /* musl has no sched_setscheduler() */
     (void)prctl(PR_SET_NAME, "knurl-guard");
     (void)!chdir("/");
