@@ -46,7 +46,7 @@ namespace Knurl.Editing
             }
             foreach (string path in AssetDatabase.GetAllAssetPaths())
             {
-                if (IsGltf(path) && !IsAttached(path) && !AssetDatabase.IsValidFolder(TagAssets.FolderOf(path)) && MayHoldTags(path))
+                if (IsGltf(path) && !AssetDatabase.IsValidFolder(TagAssets.FolderOf(path)) && MayHoldTags(path) && !IsAttached(path))
                 {
                     AssetDatabase.ImportAsset(path);
                 }
