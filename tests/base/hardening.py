@@ -28,6 +28,9 @@ def faults_of_linked(path):
         yield "found memory that can be written and executed"
     if re.search(r"TEXTREL", headers):
         yield "found code that is changed when it is loaded"
+    storage = re.search(r"^  TLS(?: +0x[0-9a-f]+){4} +0x([0-9a-f]+) ", headers, re.M)
+    if "STATIC_TLS" in headers and int(storage.group(1), 16) > 64:
+        yield f"expected 64 bytes of thread-local variables at most, found {int(storage.group(1), 16)}: too many do not load"
     if re.search(r"R(UN)?PATH\).*\[(?!\$ORIGIN\])", headers):
         yield "found folders to look for libraries in, other than where it lies itself ($ORIGIN)"
 

@@ -4,24 +4,71 @@
 #include "base/finite.h"
 #include "base/format.h"
 #include "base/rule.h"
+#if defined(__GLIBC__)
+#include <pthread.h>
+#endif
 
 #include <stdarg.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define KNURL_TEXT_(x) #x
 #define KNURL_TEXT(x)  KNURL_TEXT_(x)
 
+#define MESSAGE_SIZE 1024
+
 /* The loader allocates this for every thread before it runs, so that its first use, perhaps in a tick, allocates
- * nothing. There is room for a pointer, not for a message. Other systems give no such guarantee; see
- * knurl_loop_haptic_thread(). */
+ * nothing. Other systems give no such guarantee; see knurl_loop_haptic_thread(). A process has some 1,600 bytes of such
+ * storage for all libraries that it loads while it runs, and a library whose variables do not fit is not loaded. One
+ * variable of this kind puts all thread-local variables of the library there, so the messages are on the heap. */
 #if defined(__GLIBC__)
 #define READY_AT_ONCE __attribute__((tls_model("initial-exec")))
 #else
 #define READY_AT_ONCE
 #endif
 
-static KNURL_THREAD_LOCAL char formatted[1024];
-static KNURL_THREAD_LOCAL const char *latest READY_AT_ONCE; /* `formatted`, a static sentence, or null */
+static KNURL_THREAD_LOCAL const char *latest READY_AT_ONCE; /* the formatted message, a static sentence, or null */
+
+#if defined(__GLIBC__)
+static KNURL_THREAD_LOCAL char *formatted READY_AT_ONCE; /* MESSAGE_SIZE bytes, or null */
+static pthread_once_t once = PTHREAD_ONCE_INIT;
+static pthread_key_t end_of_thread;
+static int has_end;
+
+static void free_message(void *message) {
+    free(message);
+    formatted = NULL;
+    latest = NULL;
+}
+
+static void make_end(void) {
+    has_end = pthread_key_create(&end_of_thread, free_message) == 0;
+}
+
+/* The library is being unloaded: ends of threads must not call it any more. */
+__attribute__((destructor)) static void give_back(void) {
+    if (has_end) {
+        (void)pthread_key_delete(end_of_thread);
+        free_message(formatted);
+    }
+}
+
+/* This thread's room for a message; null without memory. */
+static char *room_for_message(void) {
+    if (!formatted && pthread_once(&once, make_end) == 0 && has_end) {
+        formatted = malloc(MESSAGE_SIZE);
+        if (formatted && pthread_setspecific(end_of_thread, formatted) != 0) {
+            free_message(formatted);
+        }
+    }
+    return formatted;
+}
+#else
+static char *room_for_message(void) {
+    static KNURL_THREAD_LOCAL char formatted[MESSAGE_SIZE];
+    return formatted;
+}
+#endif
 
 const char *knurl_result_string(knurl_result result) {
     switch (result) {
@@ -125,14 +172,17 @@ size_t knurl_text_line(char *to, size_t size, const char *from) {
 
 knurl_result knurl_fail(knurl_result code, const char *format, ...) {
     KNURL_RULE(NOT_HAPTIC, NULL);
-    char text[sizeof formatted]; /* a local buffer, so that the old message may be an argument */
+    char text[MESSAGE_SIZE]; /* a local buffer, so that the old message may be an argument */
     va_list arguments;
     va_start(arguments, format);
     (void)knurl_format_arguments(text, sizeof text, format ? format : "no reason was given", arguments);
     va_end(arguments);
     (void)knurl_text_line(text, sizeof text, text); /* names from files may contain anything */
-    memcpy(formatted, text, sizeof text);
-    latest = formatted;
+    char *room = room_for_message();
+    if (room) {
+        memcpy(room, text, sizeof text);
+    }
+    latest = room ? room : knurl_result_string(code);
     return code;
 }
 
