@@ -126,6 +126,7 @@ with multiprocessing.get_context("fork").Pool(2) as pool:
                      "knurl.Loop(scene, knurl.Device.of_functions(lambda: (0, 0, 0), lambda force: None, 3.0, blocking=True))"):
             self.assertEqual(self.probe(f"loop = {made}\nloop.start()\ntime.sleep(0.03)\nprint('end')\n"), "end\n")
 
+    @repeated
     def test_a_script_that_fails_while_its_loop_runs_ends(self):
         done = subprocess.run([sys.executable, "-B", "-c", SCENE + "loop = knurl.Loop(scene, knurl.Device('fake'), "
                                "tick_callback=lambda row: None)\nloop.start()\nraise SystemExit(3)"], check=False,

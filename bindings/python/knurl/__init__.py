@@ -5,7 +5,7 @@ it, by cffi. SPDX-License-Identifier: MIT"""
 from . import metrics
 from ._library import KnurlError, arrays_of, check, ffi, lib, version
 from .actuators import coil
-from .callbacks import Sample
+from .callbacks import Sample, Torque
 from .device import Device, Event, Listing, devices
 from .effects import Effect
 from .loop import Loop
@@ -16,6 +16,6 @@ from .tagging import Tagged, tag, tags, untag
 from .ticks import Ticks, Verdict, as_ticks
 
 __all__ = ["Device", "Effect", "Event", "Grating", "KnurlError", "Listing", "Loop", "Material", "Sample", "Scene", "Surface",
-           "Tagged", "Ticks", "Velocity", "Verdict", "add_method", "arrays_of", "as_ticks", "check", "coil", "devices", "ffi", "lib", "metrics",
-           "tag", "tags", "untag", "version"]
+           "Tagged", "Ticks", "Torque", "Velocity", "Verdict", "add_method", "arrays_of", "as_ticks", "check", "coil",
+           "devices", "ffi", "lib", "metrics", "tag", "tags", "untag", "version"]
 __version__ = version()

@@ -25,11 +25,19 @@ class Sample(NamedTuple):
     joints: Tuple[float, ...] = ()
 
 
+class Torque(NamedTuple):
+    """A torque about the device's axes, N m, right-handed, and a gripper's force, N, positive if it opens the gripper."""
+
+    torque: ArrayLike = (0.0, 0.0, 0.0)
+    grip: float = 0.0
+
+
 class Calls:
     """The functions of one loop, and the first exception that one of them raised."""
 
-    def __init__(self, force: Optional[Callable[..., Any]], tick: Optional[Callable[..., Any]], record: Any, hip: Any) -> None:
-        self.force, self.tick, self.record, self.hip = force, tick, record, hip
+    def __init__(self, force: Optional[Callable[..., Any]], torque: Optional[Callable[..., Any]],
+                 tick: Optional[Callable[..., Any]], record: Any, hip: Any) -> None:
+        self.force, self.torque, self.tick, self.record, self.hip = force, torque, tick, record, hip
         self.error: Optional[BaseException] = None
         self.loop: Any = None # the C pointer, set before a thread can call
 
@@ -72,13 +80,28 @@ def _three(found: ArrayLike, to: Any, name: str) -> None:
     to[0:3] = values.tolist()
 
 
+def _sample(of: Any) -> Sample:
+    return Sample((*of.position,), of.buttons, (*of.orientation,), of.grip, tuple(of.joints[0 : of.joint_count])) # type: ignore
+
+
 @ffi.callback("void(uint64_t, const knurl_device_sample *, double *, void *)")
 def force_callback(tick: int, sample: Any, force: Any, user: Any) -> None:
-    calls, (x, y, z), turned = ffi.from_handle(user), sample.position, sample.orientation
-    joints = tuple(sample.joints[0 : sample.joint_count])
+    calls = ffi.from_handle(user)
     force[0] = force[1] = force[2] = 0.0
-    _call(calls, lambda: _three(calls.force(tick, Sample((x, y, z), sample.buttons, (*turned,), sample.grip, joints)), # type: ignore
-                                force, "force"))
+    _call(calls, lambda: _three(calls.force(tick, _sample(sample)), force, "force"))
+
+
+def _take_torque(found: Any, to: Any) -> None:
+    made = found if isinstance(found, Torque) else Torque(found)
+    grip = float(made.grip)
+    _three(made.torque, to.torque, "torque")
+    to.grip = grip
+
+
+@ffi.callback("void(uint64_t, const knurl_device_sample *, knurl_device_torque *, void *)")
+def torque_callback(tick: int, sample: Any, torque: Any, user: Any) -> None:
+    calls = ffi.from_handle(user)
+    _call(calls, lambda: _take_torque(calls.torque(tick, _sample(sample)), torque))
 
 
 @ffi.callback("void(const knurl_tick_output *, void *)")
@@ -86,7 +109,8 @@ def tick_callback(output: Any, user: Any) -> None:
     calls = ffi.from_handle(user)
     if calls.record is not None:
         lib.knurl_record_put(output, calls.record)
-    _call(calls, lambda: calls.tick(np.frombuffer(ffi.buffer(output), OUTPUTS)[0].copy()))
+    if calls.tick is not None:
+        _call(calls, lambda: calls.tick(np.frombuffer(ffi.buffer(output), OUTPUTS)[0].copy()))
 
 
 class Functions:

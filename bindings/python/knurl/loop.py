@@ -77,13 +77,16 @@ class Loop(Owner):
 
     def __init__(self, scene: Optional[Scene], device: Device, hip: int = 0, *,
                  force_callback: Optional[Callable[[int, callbacks.Sample], Any]] = None,
+                 torque_callback: Optional[Callable[[int, callbacks.Sample], Any]] = None,
                  tick_callback: Optional[Callable[[np.ndarray], Any]] = None,
                  record: Union[bool, Sequence[str]] = False, **values: Any) -> None:
-        """force_callback(tick, sample), if scene is None: the force, 3 numbers, N, device axes. tick_callback(row):
-        called with each tick's output. Both run on the haptic thread, which then waits for Python (see
-        Device.of_functions()); after an exception the force is zero, the loop ends, and wait(), step() or stop() raises
-        it. record: True, or some fields of knurl_tick_output: `ticks` has every tick, for nanoseconds a tick on the
-        haptic thread. values: other fields of knurl_loop_desc, such as update_rate_hz, tick_limit, ramp_s, reconnect."""
+        """force_callback(tick, sample), if scene is None: the force, 3 numbers, N, device axes. torque_callback(tick,
+        sample), beside a scene or a force_callback, for devices that play torques: 3 numbers, N m, or a Torque, which has
+        a gripper's force, too. tick_callback(row): called with each tick's output. All run on the haptic thread, which
+        then waits for Python (see Device.of_functions()); after an exception force and torque are zero, the loop ends,
+        and wait(), step() or stop() raises it. record: True, or some fields of knurl_tick_output: `ticks` has every tick,
+        for nanoseconds a tick on the haptic thread. values: other fields of knurl_loop_desc, such as update_rate_hz,
+        tick_limit, ramp_s, reconnect."""
         if scene is None and (record or tick_callback):
             raise ValueError("record, tick_callback: expected a scene, found None; a force_callback gets every sample itself")
         _finish_later()
@@ -100,11 +103,14 @@ class Loop(Owner):
         desc.scene, desc.device, desc.hip = scene.handle if scene is not None else ffi.NULL, device.handle, hip
         self._record = (_Record(desc.update_rate_hz, None if record is True else record) # type: ignore[arg-type]
                         if record else None)
-        self._calls = callbacks.Calls(force_callback, tick_callback, self._record.ring if self._record else None, self._stepping)
+        self._calls = callbacks.Calls(force_callback, torque_callback, tick_callback, self._record.ring if self._record else None,
+                                      self._stepping)
         user = callbacks.keep(self._calls)
         if force_callback:
             desc.force_callback, desc.user = callbacks.force_callback, user
-        if tick_callback:
+        if torque_callback:
+            desc.torque_callback, desc.user = callbacks.torque_callback, user
+        if tick_callback or (torque_callback and self._record): # there is one `user` for all
             desc.tick_callback, desc.user = callbacks.tick_callback, user
         elif self._record:
             desc.tick_callback, desc.user = ffi.addressof(lib._parts["knurl_record_"], "knurl_record_put"), self._record.ring
