@@ -3,6 +3,7 @@
 
 #include "bench.h"
 #include "help_table.h"
+#include "materials.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -16,19 +17,33 @@ static void print_names(const help_command *only) {
     }
 }
 
-/* Prints the values of an option, or of a command (option null), with spaces in between; false if it takes a file or a
- * number. */
-static int print_values(const help_command *c, const help_option *o) {
-    const char *values = o                                   ? help_argument(o)
-                         : strcmp(c->name, "study") == 0     ? HELP_STUDIES
-                         : strcmp(c->name, "calibrate") == 0 ? "falcon|"
-                                                             : "";
-    const int is_case = o && strcmp(o->name, "--case") == 0;
+/* Prints the names of a table that an option takes one of; false if it takes none. */
+static int print_table(const char *option) {
+    const int is_case = strcmp(option, "--case") == 0;
+    const int is_preset = strcmp(option, "--preset") == 0;
     for (const bench_case *known = bench_cases; is_case && known->name; known++) {
         printf("%s ", known->name);
     }
-    if (is_case || strchr(values, '=') || !strpbrk(values, o ? "|" : "|,")) {
-        return is_case;
+    for (int i = 0; is_preset && i < MATERIAL_COUNT; i++) {
+        printf("%s ", materials[i].name);
+    }
+    return is_case || is_preset;
+}
+
+/* Prints the values of an option, or of a command (option null), with spaces in between; false if it takes a file or a
+ * number. */
+static int print_values(const help_command *c, const help_option *o) {
+    const int is_device = o && strcmp(o->name, "--device") == 0;
+    const char *values = is_device                           ? "fake, " HELP_DEVICES
+                         : o                                 ? help_argument(o)
+                         : strcmp(c->name, "study") == 0     ? HELP_STUDIES
+                         : strcmp(c->name, "calibrate") == 0 ? "falcon|"
+                                                             : "";
+    if (o && print_table(o->name)) {
+        return 1;
+    }
+    if (strchr(values, '=') || !strpbrk(values, o && !is_device ? "|" : "|,")) {
+        return 0;
     }
     for (; *values; values++) {
         putchar(strchr("|,\n", *values) ? ' ' : *values);

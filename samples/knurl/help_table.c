@@ -77,7 +77,7 @@ const help_command help_commands[] = {
     {"run",
      "FILE",
      "load a scene, feel or stroke it, and summarise as JSON",
-     {{"--device", "URI", "fake (default), touch, falcon, rawhid, serial, dhd, inverse3; see 'knurl devices'"},
+     {{"--device", "URI", "fake (default), " HELP_DEVICES "; see 'knurl devices'"},
       {"--reconnect", "", "search for a lost device instead of ending"},
       {"--surface", "NAME", "the surface to stroke; default: the first"},
       {"--stroke", "line|sweep|circle|press|rest", "of the fake device's hand, 1 mm deep; default line"},

@@ -19,6 +19,8 @@ typedef struct help_command {
     const char *(*more)(void); /* or null: further details */
 } help_command;
 
+#define HELP_DEVICES "touch, falcon, rawhid, serial, dhd, inverse3"
+
 #define HELP_STUDIES                                                                                                   \
     "signals, coverage, temporal, device, gratings, preferences, tradeoff, velocity, tracking, even, half_cycles,\n"   \
     "transitions, smooth, creases, failures, stability"

@@ -84,6 +84,8 @@ TEST(completion_offers_values_where_there_are_some_and_files_elsewhere) {
                  {"knurl bench --case paced_pl", "paced_plane"},
                  {"knurl verify --only wa", "wall\n"},
                  {"knurl tag a.glb --material ''", "\n"},
+                 {"knurl tag a.glb --preset cordu", "corduroy corduroy_fine\n"},
+                 {"knurl run a.glb --device ''", "fake touch falcon rawhid serial dhd inverse3\n"},
                  {"knurl study tr", "tradeoff tracking transitions\n"},
                  {"knurl help insp", "inspect\n"},
                  {"knurl completion ''", "bash zsh fish\n"}};
