@@ -108,7 +108,8 @@ def pages(headers):
              "| header | declares |", "|---|---|"]
     for name, found in read.items():
         first = " ".join(comment(re.match(r"/\*(.*?)\*/", headers[name], re.S)[1]).split()).replace("SPDX-License-Identifier: MIT", "")
-        index.append(f"| [{name}.h]({name}.md) | {re.sub('^Knurl: ', '', first).strip()} |")
+        sentence = re.match(r"(?:Knurl: )?(.*?\.)(?= |$)", first)[1]
+        index.append(f"| [{name}.h]({name}.md) | {sentence} |")
     index += ["", "## All functions", ""]
     for each in sorted(each for each in places if each.startswith("knurl_") and f"{each}()" in
                        {title for found in read.values() for heading, *_ in found for title in heading}):
