@@ -184,6 +184,20 @@ with multiprocessing.get_context("fork").Pool(2) as pool:
                 call()
 
     @repeated
+    def test_a_stepped_loop_ends_at_once(self):
+        for end in (knurl.Loop.stop, knurl.Loop.close):
+            loop = knurl.Loop(ready(), knurl.Device("fake"))
+            loop.step(10)
+            begin = time.monotonic()
+            end(loop)
+            self.assertLess(time.monotonic() - begin, 2.0) # its wait is 5 s
+            self.assertEqual((loop.stats["state"], loop.stats["ticks"]), ("done", 10))
+            loop.close()
+        loop = knurl.Loop(ready(), knurl.Device("fake"))
+        loop.close()
+        self.assertEqual((loop.stats["state"], loop.stats["ticks"]), ("idle", 0))
+
+    @repeated
     def test_each_is_a_context(self):
         with knurl.Scene() as scene, knurl.Device("fake") as device:
             scene.add_plane()

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import callbacks, metrics
-from ._library import Owner, check, described, ffi, fill, lib, open_objects, to_python
+from ._library import KnurlError, Owner, check, described, ffi, fill, lib, open_objects, to_python
 from .device import Device
 from .methods import raise_error
 from .scene import Scene, _tuple_of
@@ -75,6 +75,8 @@ class Loop(Owner):
     can. A `with` starts it, and stops and closes it at the end; stats and ticks can still be read then. A device or a
     HIP has one loop: making another closes the earlier one, so that a notebook's cell can be run again."""
 
+    _stepped = False
+
     def __init__(self, scene: Optional[Scene], device: Device, hip: int = 0, *,
                  force_callback: Optional[Callable[[int, callbacks.Sample], Any]] = None,
                  torque_callback: Optional[Callable[[int, callbacks.Sample], Any]] = None,
@@ -137,6 +139,7 @@ class Loop(Owner):
     def step(self, ticks: int) -> None:
         """Runs `ticks` ticks, fewer if the loop ends; see `stats`. One thread at a time, as Scene.tick()."""
         with self._stepping:
+            self._stepped = True
             for done in range(0, ticks, _STEP):
                 check(lib.knurl_loop_step(self.handle, min(_STEP, ticks - done)))
                 self._raise_error()
@@ -159,7 +162,17 @@ class Loop(Owner):
         """Ramps the force down to zero, ends the loop and waits for that, 5 s at most."""
         lib.knurl_loop_request_stop(self.handle)
         if not callbacks.in_callback():
+            self._end_steps(self.handle)
             self.wait(5.0)
+
+    def _end_steps(self, handle: Any) -> None:
+        """A stepped loop has no thread that would end it."""
+        if self._stepped:
+            try:
+                with self._stepping:
+                    check(lib.knurl_loop_step(handle, 0))
+            except KnurlError: # another thread steps it, and ends it
+                pass
 
     def close(self) -> None:
         """Stops the loop and releases its device and HIP. Does not raise an exception of a callback; stop() does."""
@@ -168,6 +181,7 @@ class Loop(Owner):
             return
         lib.knurl_loop_request_stop(handle)
         if not callbacks.in_callback():
+            self._end_steps(handle)
             lib.knurl_loop_wait(handle, 5.0)
         self._last = self.stats
         del handle
