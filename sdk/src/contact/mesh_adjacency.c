@@ -19,16 +19,23 @@ static uint32_t vertex_of(const adjacency *adj, uint32_t corner) {
     return adj->welded[corner_slot(corner)];
 }
 
-static uint32_t lower_end(const adjacency *adj, uint32_t corner) {
+/* The edge opposite a corner, by its ends. */
+typedef struct edge {
+    uint32_t low, high;
+} edge;
+
+static inline edge edge_of(const adjacency *adj, uint32_t corner) {
     const uint32_t a = vertex_of(adj, corner_next(corner));
     const uint32_t b = vertex_of(adj, corner_last(corner));
-    return a < b ? a : b;
+    return a < b ? (edge){a, b} : (edge){b, a};
+}
+
+static uint32_t lower_end(const adjacency *adj, uint32_t corner) {
+    return edge_of(adj, corner).low;
 }
 
 static uint32_t upper_end(const adjacency *adj, uint32_t corner) {
-    const uint32_t a = vertex_of(adj, corner_next(corner));
-    const uint32_t b = vertex_of(adj, corner_last(corner));
-    return a < b ? b : a;
+    return edge_of(adj, corner).high;
 }
 
 /* One pass of a counting sort of corners by `key`. from: null for all corners in order. */
@@ -68,11 +75,13 @@ static void link_edge(const adjacency *adj, const uint32_t *corners, size_t coun
 static void link_edges(const adjacency *adj, const uint32_t *sorted) {
     const size_t count = 3 * (size_t)adj->mesh->triangle_count;
     size_t first = 0;
+    edge now = edge_of(adj, sorted[0]);
     for (size_t i = 1; i <= count; i++) {
-        if (i == count || lower_end(adj, sorted[i]) != lower_end(adj, sorted[first]) ||
-            upper_end(adj, sorted[i]) != upper_end(adj, sorted[first])) {
+        const edge next = edge_of(adj, sorted[i < count ? i : first]);
+        if (i == count || next.low != now.low || next.high != now.high) {
             link_edge(adj, &sorted[first], i - first);
             first = i;
+            now = next;
         }
     }
 }
