@@ -69,7 +69,8 @@ static const char head[] =
     ".sum { font-size: 1.1rem; margin: .8rem 0; color: var(--ink) } table { width: 100%; border-collapse: collapse }\n"
     "th { text-align: left; padding: 1rem 0 .2rem } td { padding: .2rem .8rem .2rem 0; vertical-align: top;\n"
     "  border-top: 1px solid var(--line) } td:first-child { font-weight: 600; white-space: nowrap }\n"
-    "td:nth-child(3) { white-space: nowrap } td:nth-child(4) { width: 175px } td:last-child { width: 26rem }\n"
+    "td:nth-child(2) { min-width: 12rem } td:nth-child(3) { white-space: nowrap } td:nth-child(4) { width: 175px }\n"
+    "td:last-child { width: 22rem }\n"
     "small { display: block; color: var(--dim) } .pass { color: var(--good) } .fail { color: var(--bad) }\n"
     ".open { color: var(--open) } svg text { fill: var(--dim); font-size: 11px } svg { vertical-align: middle }\n"
     "@media (max-width: 50rem) { td, th { display: block; border: 0; padding: 0 } tr { display: block;\n"
@@ -211,9 +212,10 @@ void verify_write_page(const verify *v, FILE *stream, const char *uri) {
     say(stream, "<title>knurl verify: %s</title>\n<main><h1>%s</h1>\n", escaped(v->info.name), escaped(v->info.name));
     say(stream, "<p>%s; Knurl %s%s; %s; at most %.3g N, %.0f Hz</p>\n", escaped(uri), knurl_version_string(),
         v->simulated ? ", simulated" : "", escaped(machine), v->newtons, VERIFY_RATE);
+    const int failed = verify_count(v, VERIFY_FAIL);
     say(stream,
-        "<p class=\"sum\"><b class=\"pass\">%d passed</b>, <b class=\"fail\">%d failed</b>, %d not measured</p>\n",
-        verify_count(v, VERIFY_PASS), verify_count(v, VERIFY_FAIL), verify_count(v, VERIFY_NOT_MEASURED));
+        "<p class=\"sum\"><b class=\"pass\">%d passed</b>, <b class=\"%s\">%d failed</b>, %d not measured</p>\n",
+        verify_count(v, VERIFY_PASS), failed ? "fail" : "open", failed, verify_count(v, VERIFY_NOT_MEASURED));
     for (int i = 0; i < v->finding_count; i++) {
         const verify_finding *f = &v->findings[i];
         if (f->verdict == VERIFY_FAIL) {

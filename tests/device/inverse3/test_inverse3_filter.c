@@ -59,6 +59,6 @@ TEST(without_a_filter_the_newest_message_is_received) {
 }
 
 int main(int count, char **arguments) {
-    port = count > 1 ? atoi(arguments[1]) : 0;
+    port = count > 1 ? (int)strtol(arguments[1], NULL, 10) : 0;
     return suite_run("inverse3_filter");
 }
