@@ -50,7 +50,12 @@ configure_package_config_file(cmake/knurl-config.cmake.in knurl-config.cmake INS
 write_basic_package_version_file(knurl-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/knurl-config.cmake ${CMAKE_CURRENT_BINARY_DIR}/knurl-config-version.cmake
   DESTINATION ${_package} COMPONENT dev)
-install(FILES LICENSE CHANGELOG.md bindings/godot/addons/knurl/THIRD_PARTY.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
+install(CODE "
+  file(READ \"${CMAKE_CURRENT_SOURCE_DIR}/CHANGELOG.md\" changes) # without links: the pages are not beside it there
+  string(REGEX REPLACE [=[\\[([^]]*)\\]\\([a-z][^):]*\\)]=] [=[\\1]=] changes \"\${changes}\")
+  file(WRITE \"${CMAKE_CURRENT_BINARY_DIR}/CHANGELOG.md\" \"\${changes}\")" COMPONENT runtime)
+install(FILES LICENSE ${CMAKE_CURRENT_BINARY_DIR}/CHANGELOG.md bindings/godot/addons/knurl/THIRD_PARTY.md
+  DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
 
 if(TARGET knurl_tool)
   file(RELATIVE_PATH _up ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})

@@ -18,7 +18,7 @@ for tool in ar ranlib; do
     printf '#!/bin/sh\nexec "%s" -m ziglang %s "$@"\n' "$dir/venv/bin/python" $tool >"$dir/bin/$tool"
 done
 for target in aarch64-macos.11.0 x86_64-macos.11.0 aarch64-linux-gnu.2.31 aarch64-linux-gnu.2.28 x86_64-linux-gnu.2.28 \
-    aarch64-windows-gnu; do
+    x86_64-linux-musl aarch64-linux-musl aarch64-windows-gnu; do
     for tool in cc c++; do
         printf '#!/bin/sh\nexec "%s" -m ziglang %s -target %s "$@"\n' "$dir/venv/bin/python" $tool $target \
             >"$dir/bin/$target-$tool"

@@ -200,7 +200,7 @@ release_wheel() {
 }
 
 # Archives and wheels for Linux on x86-64, with compilers that old systems' C libraries are enough for, if they can be had;
-# and those for Linux on arm64 and for macOS. usage: release_archives OUT VERSION
+# those for Linux on arm64 and for macOS; and wheels for musl. usage: release_archives OUT VERSION
 release_archives() {
     local arch name=knurl-$2 zig="-DCMAKE_TOOLCHAIN_FILE=$PWD/cmake/zig.cmake" link=-DCMAKE_SHARED_LINKER_FLAGS=-Wl,--build-id
     local oldest=() host
@@ -213,7 +213,7 @@ release_archives() {
     build_shared "$host" "${oldest[@]}" "$link" "${link/SHARED/EXE}"
     release_archive "$1" "$name-linux-$host" "build/archive-$host"
     if ! prepare_zig; then
-        echo "run: SKIPPED: files for macOS and arm64, and for glibc 2.28 (see above): one wheel is built, for this machine's" >&2
+        echo "run: SKIPPED: files for macOS, arm64, musl and glibc 2.28 (see above): one wheel is built, for this machine's" >&2
         release_wheel "$1" "linux-$host" ''
         return 0
     fi
@@ -222,6 +222,7 @@ release_archives() {
     for arch in aarch64 x86_64; do
         build_shared macos-$arch "$zig" -DKNURL_ZIG_TARGET=$arch-macos.11.0
         release_wheel "$1" linux-$arch $arch-linux-gnu.2.28
+        release_wheel "$1" linux-$arch $arch-linux-musl
         release_wheel "$1" macosx-11.0-${arch/aarch64/arm64} $arch-macos.11.0
     done
     release_archive "$1" "$name-macos-universal" build/archive-macos-{aarch64,x86_64}
@@ -233,7 +234,7 @@ release() {
     '' | check) ;;
     *) echo "run: release: expected check or nothing, found '$1'" >&2; exit 2 ;;
     esac
-    need_packages "${BUILD_PACKAGES[@]}" "${PYTHON_PACKAGES[@]}" debhelper lintian
+    need_packages "${BUILD_PACKAGES[@]}" "${PYTHON_PACKAGES[@]}" debhelper lintian patchelf
     need_python mirror-venv bindings/unity/native/requirements.txt # for api.json
     local version out log=build/package.log name source
     version=$(sed -n 's/^#define KNURL_VERSION_[A-Z]* \([0-9]*\)$/\1/p' sdk/include/knurl/base.h | paste -sd .)
@@ -278,8 +279,10 @@ check_release() {
     if compgen -G "$1/*-macos-*" >/dev/null; then
         need_packages llvm
         /usr/bin/python3 -B tests/package/macos.py "$1" build/zig
+        need_packages qemu-user
+        tests/package/musl.sh "$1" build/zig build/musl
     else
-        echo 'run: SKIPPED: the files for macOS: the release has none' >&2
+        echo 'run: SKIPPED: the files for macOS and musl: the release has none' >&2
     fi
     echo 'run: trying the two commands in the oldest and in the newest system'
     test_systems '' "$OLDEST_SYSTEM" "$NEWEST_SYSTEM"

@@ -20,7 +20,7 @@ stage=$(mktemp -d)
 trap 'rm -rf "$stage"' EXIT
 mkdir -p "$stage/addons"
 cp -r "$here/addons/knurl" "$stage/addons/"
-cp "$here/../../CHANGELOG.md" "$stage/addons/knurl/"
+sed -E 's/\[([^]]*)\]\([a-z][^):]*\)/\1/g' "$here/../../CHANGELOG.md" >"$stage/addons/knurl/CHANGELOG.md" # the pages are elsewhere
 mkdir -p "$stage/addons/knurl/bin"
 for library in "$@"; do
     name=$(basename "$library")

@@ -29,6 +29,12 @@ def version():
         return ".".join(re.findall(r"#define KNURL_VERSION_[A-Z]+ (\d+)", header.read()))
 
 
+def description():
+    """The page of the package: its README, without links to files that are not beside it there."""
+    with open(os.path.join(HERE, "README.md"), encoding="utf-8") as readme:
+        return re.sub(r"\[([^]]*)\]\((?![a-z]+:)[^)]*\)", r"\1", readme.read())
+
+
 def interface():
     """The headers as cffi reads them: preprocessed, without declarations of other headers and without attributes; of
     macros only whole numbers."""
@@ -88,14 +94,17 @@ class Wheel(bdist_wheel):
     def get_tag(self):
         """Any Python 3 on this platform, with the oldest C library that has all needed functions."""
         platform = super().get_tag()[2]
-        needed = [0]
+        libraries = b""
         for root, _, names in os.walk(self.bdist_dir or "."):
             for name in names:
                 if ".so" in name:
                     with open(os.path.join(root, name), "rb") as file:
-                        needed += [int(minor) for minor in re.findall(rb"GLIBC_2\.(\d+)", file.read())]
-        if platform.startswith("linux_") and max(needed) > 0:
-            platform = f"manylinux_2_{max(17, *needed)}_{platform[len('linux_'):]}"
+                        libraries += file.read()
+        glibc = [int(minor) for minor in re.findall(rb"GLIBC_2\.(\d+)", libraries)]
+        musl = re.search(rb"\0libc\.(so|musl-\w+\.so\.1)\0", libraries) # its symbols have no versions
+        if platform.startswith("linux_") and (glibc or musl):
+            oldest = f"manylinux_2_{max(17, *glibc)}" if glibc else "musllinux_1_2"
+            platform = oldest + platform[len("linux"):]
         return ("py3", "none", platform)
 
 
@@ -104,4 +113,5 @@ class WithLibraries(Distribution):
         return True
 
 
-setup(version=version(), cmdclass={"build_py": Build, "bdist_wheel": Wheel, "sdist": Archive}, distclass=WithLibraries)
+setup(version=version(), long_description=description(), long_description_content_type="text/markdown",
+      cmdclass={"build_py": Build, "bdist_wheel": Wheel, "sdist": Archive}, distclass=WithLibraries)

@@ -100,6 +100,17 @@ def check_exports(prefix):
         check(f"{library} is {soname}", os.path.exists(os.path.join(folder, soname)))
 
 
+def check_links(prefix):
+    """Installed pages have no links to files of the repository."""
+    folder = os.path.join(prefix, "share/doc/knurl")
+    pages = [name for name in sorted(os.listdir(folder)) if name.endswith(".md")]
+    for name in pages:
+        with open(os.path.join(folder, name), encoding="utf-8") as page:
+            dead = [link for link in re.findall(r"\]\(([^)]*)\)", page.read()) if not link.startswith("https:")]
+        check(f"{name} has dead links: {dead}" if dead else f"{name} has no dead links", not dead)
+    check(f"pages: {', '.join(pages)}", pages == ["CHANGELOG.md", "THIRD_PARTY.md"])
+
+
 def check_shown(prefix):
     """The pages' CMake builds a game against the installation, and configures with the sources in a subfolder."""
     shown = run(sys.executable, "-B", os.path.join(SOURCE, "tests/docs/snippets.py"), "write", "cmake", FOLDER).split()
@@ -132,6 +143,7 @@ def main():
     prefix = install("shared", build("shared", ("knurl", "knurl_gltf", "knurl_tool"), "-DBUILD_SHARED_LIBS=ON",
                                      f"-DCMAKE_CXX_COMPILER={CXX}"), "tool")
     check_exports(prefix)
+    check_links(prefix)
     check_tree(prefix, both, version, *with_gltf)
     check_shown(prefix)
     said = run(os.path.join(prefix, "bin/knurl"), "--version", env={"LD_LIBRARY_PATH": ""})

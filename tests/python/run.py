@@ -61,6 +61,10 @@ def check_wheel(wheel):
     licences = {os.path.basename(path) for path in names if "/licences/" in path}
     if not re.search(r"-py3-none-manylinux_2_\d+_\w+\.whl$", name) or licences != {"LICENSE", "THIRD_PARTY.md"}:
         sys.exit(f"python: {name}: expected a tag manylinux_2_N and two files of licences, found {sorted(licences)}")
+    page = zipfile.ZipFile(wheel).read(next(path for path in names if path.endswith("/METADATA"))).decode()
+    dead = re.findall(r"\]\((?!https:)(.*?)\)", page)
+    if "# Knurl" not in page or dead:
+        sys.exit(f"python: {name}: expected its README as its page, without links to files of the repository, found {dead}")
     print(f"python: {name}, {os.path.getsize(wheel) // 1000} kB")
 
 
