@@ -116,8 +116,18 @@ namespace Knurl.Tests
                 .Invoke(step, new object[] { scene, new SceneImportContext(ProcessSceneMode.PlayerBuild) });
             AssetDatabase.Assets.Remove("Assets/plate.fbx");
             Assert.Less(step.GetPostprocessOrder(), 0, "Unity's own has 0");
-            CollectionAssert.AreEqual(new[] { "Assets/plate.fbx" }, step.context.Dependencies);
+            CollectionAssert.AreEqual(new[] { BuildCheck.Dependency, "Assets/plate.fbx" }, step.context.Dependencies);
             IsFelt(surface);
+        }
+
+        [Test]
+        public void A_build_says_whether_mesh_data_is_optimized_before_scenes_are_processed()
+        {
+            new BuildCheck().OnPreprocessBuild(new BuildReport());
+            Hash128 before = AssetDatabase.Dependencies[BuildCheck.Dependency];
+            PlayerSettings.stripUnusedMeshComponents = true;
+            new BuildCheck().OnPreprocessBuild(new BuildReport());
+            Assert.AreNotEqual(before, AssetDatabase.Dependencies[BuildCheck.Dependency]);
         }
 
         [Test]

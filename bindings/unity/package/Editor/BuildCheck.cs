@@ -19,6 +19,9 @@ namespace Knurl.Editing
         /// <summary>Before Unity's own steps, which have 0: static batching merges meshes.</summary>
         internal const int Order = -1000;
 
+        /// <summary>What a processed scene depends on besides its files, where Unity keeps such scenes.</summary>
+        internal const string Dependency = "com.knurl.haptics/optimize-mesh-data";
+
         public int callbackOrder
         {
             get { return Order; }
@@ -26,6 +29,7 @@ namespace Knurl.Editing
 
         public void OnPreprocessBuild(BuildReport report)
         {
+            AssetDatabase.RegisterCustomDependency(Dependency, Hash128.Compute(PlayerSettings.stripUnusedMeshComponents.ToString()));
             foreach (string guid in AssetDatabase.FindAssets("t:Prefab"))
             {
                 string path = AssetDatabase.GUIDToAssetPath(guid);

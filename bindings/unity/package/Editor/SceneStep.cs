@@ -27,6 +27,7 @@ namespace Knurl.Editing
 
         void OnProcessScene(Scene scene, SceneImportContext sceneContext)
         {
+            context.DependsOnCustomDependency(BuildCheck.Dependency);
             foreach (string path in BuildCheck.FilesOf(scene))
             {
                 context.DependsOnArtifact(path);

@@ -48,7 +48,7 @@ namespace Knurl.Editing
             {
                 if (IsGltf(path) && !AssetDatabase.IsValidFolder(TagAssets.FolderOf(path)) && MayHoldTags(path) && !IsAttached(path))
                 {
-                    AssetDatabase.ImportAsset(path);
+                    AssetDatabase.ImportAsset(path, ImportAssetOptions.ForceUpdate);
                 }
             }
             EditorUserSettings.SetConfigValue(Dependency, "imported");
@@ -77,20 +77,22 @@ namespace Knurl.Editing
         static Dictionary<string, string> List(string path)
         {
             var tags = new Dictionary<string, string>();
-            Try(path, () => tags = KnurlTags.List(File.ReadAllBytes(path), path));
+            Try(path, false, () => tags = KnurlTags.List(File.ReadAllBytes(path), path));
             return tags;
         }
 
         static bool MayHoldTags(string path)
         {
             bool may = false;
-            Try(path, () => may = GltfText.MayHoldTags(path));
+            Try(path, false, () => may = GltfText.MayHoldTags(path));
             return may;
         }
 
-        /// <summary>Never throws, because other importers run after this one. Returns false after a warning.</summary>
-        static bool Try(string path, Action deed)
+        /// <summary>Never throws, because other importers run after this one. isImported: the file's objects may be loaded, so
+        /// that a click on the warning shows them. Returns false after a warning.</summary>
+        static bool Try(string path, bool isImported, Action deed)
         {
+            string shown = isImported ? path : null;
             try
             {
                 deed();
@@ -98,15 +100,15 @@ namespace Knurl.Editing
             }
             catch (KnurlException exception)
             {
-                Warn(path, exception.Message);
+                Warn(shown, exception.Message);
             }
             catch (IOException exception)
             {
-                Warn(path, path + ": " + exception.Message);
+                Warn(shown, path + ": " + exception.Message);
             }
             catch (UnauthorizedAccessException exception)
             {
-                Warn(path, path + ": " + exception.Message);
+                Warn(shown, path + ": " + exception.Message);
             }
             return false;
         }
@@ -156,7 +158,7 @@ namespace Knurl.Editing
         internal static int Import(string path)
         {
             int count = 0;
-            bool isDone = Try(path, () =>
+            bool isDone = Try(path, true, () =>
             {
                 IReadOnlyList<KnurlTag> tags = GltfText.MayHoldTags(path) ? KnurlTags.Read(path) : new KnurlTag[0];
                 TagAssets.Write(path, tags).ForEach(sentence => Warn(path, sentence));
@@ -165,9 +167,10 @@ namespace Knurl.Editing
             return isDone ? count : -1;
         }
 
-        static void Warn(string path, string sentence)
+        /// <summary>shown: the file that a click shows, or null.</summary>
+        static void Warn(string shown, string sentence)
         {
-            Debug.LogWarning("Knurl: " + sentence, AssetDatabase.LoadMainAssetAtPath(path));
+            Debug.LogWarning("Knurl: " + sentence, shown == null ? null : AssetDatabase.LoadMainAssetAtPath(shown));
         }
     }
 }

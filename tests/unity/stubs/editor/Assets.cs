@@ -128,7 +128,7 @@ namespace UnityEditor
         public static void StartAssetEditing() { }
         public static void StopAssetEditing() { }
         public static readonly List<string> Imported = new List<string>();
-        public static void ImportAsset(string path) { Imported.Add(path); }
+        public static void ImportAsset(string path, ImportAssetOptions options) { Imported.Add(path); }
         public static string[] GetAllAssetPaths() { return System.Linq.Enumerable.ToArray(Assets.Keys); }
         public static bool IsAssetImportWorkerProcess() { return false; }
 
@@ -191,6 +191,9 @@ namespace UnityEditor
             return made;
         }
     }
+
+    /// Default imports only what has changed.
+    public enum ImportAssetOptions { Default, ForceUpdate }
 
     /// Of one project and user; a test clears it.
     public static class EditorUserSettings
