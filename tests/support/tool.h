@@ -18,6 +18,7 @@ static inline const char *tool_path(const char *name) {
     static char paths[8][1024];
     static unsigned next;
     char *path = paths[next++ % 8];
+    assert_true(tool_folder[0]); /* made by make_folder(), or files would be written to / */
     (void)snprintf(path, sizeof paths[0], "%s/%s", tool_folder, name);
     return path;
 }

@@ -85,3 +85,5 @@ TEST(a_sound_does_not_replace_the_model) {
     SCOPED_PROCESS p = RUN_TOOL("run", path, "--seconds", "1", "--fast", "--wav", path);
     check_refused(&p, 1, "it would be replaced", "a model");
 }
+
+SUITE_FIXTURES(make_folder, remove_folder)
