@@ -192,7 +192,8 @@ test_elsewhere() {
 # The tests of the library and the tool as programs for arm64, under qemu; prints a note and continues if these cannot be
 # had. Left out are tests of this machine's compilers and packages, those in real time, and those of a process's end by a
 # signal: qemu 7.2 takes a SIGBUS or SIGSEGV that another process sends for a fault of its own, and starts slowly. Debian
-# 11's hidapi crashes in hid_enumerate() when no memory is left, and with it two tests.
+# 11's hidapi crashes in hid_enumerate() when no memory is left, and with it two tests. Not understood: the guard process
+# is not heard of within its second, and test_serve hangs.
 test_arm64() {
     local tested='base|vibration|grating|motion|contact|scene|audio|loop|device|gltf|tool|fidelity|stability|bindings'
     if ! (need_packages qemu-user && prepare_zig) ||
