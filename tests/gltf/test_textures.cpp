@@ -139,6 +139,13 @@ TEST(a_missing_object_is_refused) {
     assert_true(none.empty());
 }
 
+TEST(a_size_without_bytes_is_refused) {
+    const auto each = [](void *, const knurl_gltf_texture *) {};
+    assert_int_equal(knurl_gltf_read_textures(nullptr, 8, "test.glb", nullptr, "materials", 0, each, nullptr),
+                     KNURL_ERROR_ARGUMENT);
+    assert_message("data", {"expected a pointer, found null"});
+}
+
 TEST(a_picture_in_a_file_of_its_own_is_read_from_its_folder_alone) {
     std::ofstream(KNURL_TEST_TMP "/colours.jpg", std::ios::binary) << jpeg;
     const std::vector<Picture> found = pictures_of(with_colours("colours.jpg").glb(), "materials", 0, KNURL_TEST_TMP);

@@ -61,6 +61,14 @@ TEST(without_a_position_it_gets_the_integrated_velocity) {
     }
 }
 
+TEST(a_velocity_of_over_a_million_metres_a_tick_is_no_distance) {
+    scan s = scan_with(own_add("look", 1.0, look, &looked), 1e-6, 0.0);
+    knurl_grating_step(&s.grating, &s.state, NULL, (const double[2]){0.9e9, 0.0}, &s.out);
+    CHECK_CLOSE(seen.cycles[0], 0.9, 1e-12L);
+    knurl_grating_step(&s.grating, &s.state, NULL, (const double[2]){1.1e9, 0.0}, &s.out);
+    CHECK_CLOSE(seen.cycles[0], 0.9, 1e-12L);
+}
+
 /* --- copies of the library's methods --- */
 
 static void check_copy(int32_t copied, int32_t copy, double fsy, double slowest, double fastest, double tolerance) {

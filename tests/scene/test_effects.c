@@ -145,6 +145,24 @@ TEST(an_anchor_moves_evenly_and_carries_a_damper_along) {
     }
 }
 
+TEST(an_anchor_that_arrives_with_a_tick_drags_no_more_in_it) {
+    static const double still[3] = {0.0, 0.0, 0.0};
+    knurl_hip_desc hip;
+    knurl_hip_desc_init(&hip, sizeof hip);
+    hip.update_rate_hz = 1024.0; /* every tick's time is exact */
+    hip.protections = 0;
+    SCOPED_SCENE *scene = scene_with_hip(&hip);
+    knurl_effect damper = effect_of(KNURL_EFFECT_DAMPER);
+    damper.damping = 2.0;
+    set(scene, &damper, 1, 0.0);
+    (void)tick_moving(scene, still, still);
+    damper.anchor[0] = 0.25 * 8.0 / 1024.0; /* 0.25 m/s */
+    set(scene, &damper, 1, 8.0 / 1024.0);
+    for (int tick = 1; tick <= 10; tick++) {
+        CHECK_CLOSE(tick_moving(scene, still, still).force[0], tick < 8 ? 2.0 * 0.25 : 0.0, AS_ONE);
+    }
+}
+
 TEST(an_effect_of_another_kind_is_at_its_anchor_at_once) {
     SCOPED_SCENE *scene = free_scene();
     knurl_effect effect = effect_of(KNURL_EFFECT_PLANE);

@@ -374,6 +374,31 @@ TEST(a_swing_smaller_than_the_largest_starts_the_row_again_and_keeps_half) {
     assert_false(p.alarmed);
 }
 
+TEST(a_swing_ends_once_the_depth_is_back_by_a_fifth_of_a_millimetre_of_the_device) {
+    for (double scale = 0.5; scale <= 2.0; scale *= 4.0) {
+        knurl_passivity p;
+        knurl_passivity_init(&p, &knurl_touch);
+        knurl_passivity_set_scale(&p, 1, &knurl_touch, scale);
+        p.farthest = 2e-3 * scale;
+        for (int is_over = 0; is_over <= 1; is_over++) {
+            p.depth = p.farthest - (is_over ? 0.21e-3 : 0.19e-3) * scale;
+            knurl_passivity_follow(&p);
+            assert_int_equal(p.outwards, is_over);
+        }
+    }
+}
+
+TEST(a_depth_at_rest_is_followed_and_none_outside_a_wall) {
+    for (int is_inside = 0; is_inside <= 1; is_inside++) {
+        knurl_passivity p = swinging();
+        p.farthest = p.depth = is_inside ? 2e-3 : 0.0;
+        p.ticks = 121; /* longer than a swing */
+        p.busy = 1;
+        knurl_passivity_follow(&p);
+        assert_int_equal(p.busy, is_inside);
+    }
+}
+
 TEST(a_row_is_over_when_nothing_turns_for_the_longest_swing) {
     knurl_passivity p = swinging();
     p.row = 3;

@@ -244,10 +244,10 @@ TEST(a_box_takes_no_axis_and_a_shared_shape_no_coordinates) {
     SCOPED_SCENE *scene = empty_scene(1);
     knurl_surface_id first = 0, id = 0;
     parts.desc.coordinates = KNURL_COORDINATES_BOX;
-    parts.desc.axis[0] = 1.0;
+    memcpy(parts.desc.axis, (const double[3]){1.0, 0.5, 0.25}, sizeof parts.desc.axis);
     assert_int_equal(knurl_scene_add_surface(scene, surface_ready(&parts), &id), KNURL_ERROR_ARGUMENT);
-    check_message("axis: expected zeros with KNURL_COORDINATES_BOX");
-    parts.desc.axis[0] = 0.0;
+    check_message("axis: expected zeros with KNURL_COORDINATES_BOX, found [1, 0.5, 0.25]");
+    memset(parts.desc.axis, 0, sizeof parts.desc.axis);
     first = add_surface(scene, &parts);
     parts.desc.coordinates = 7;
     assert_int_equal(knurl_scene_add_surface(scene, surface_ready(&parts), &id), KNURL_ERROR_UNKNOWN);

@@ -124,6 +124,25 @@ TEST(text_in_utf_16_and_too_many_rows_are_refused) {
     assert_int_equal(knurl_gains_from_response(HEAD, 1, NULL), KNURL_ERROR_ARGUMENT);
 }
 
+/* A mass on a light grip's spring and damper, 700 N/m and 5 N s/m, under forces that are held for a tick:
+ * sinc(f/f_h)/|k - m w^2 + i (b + c) w|. Read as a response, it has the same gains. */
+TEST(a_plants_gains_are_those_of_its_response) {
+    static char file[16384] = HEAD;
+    knurl_gain read[KNURL_GAINS], found[KNURL_GAINS];
+    for (int i = 0; i < KNURL_GAINS; i++) {
+        const double hz = 20.0 * pow(2.0, i / 16.0), w = 6.283185307179586 * hz, half = 0.5 * w / 2000.0;
+        const double real = 700.0 - 0.045 * w * w, imaginary = 5.5 * w;
+        const size_t used = strlen(file);
+        (void)snprintf(file + used, sizeof file - used, "%.14g,%.14g\n", hz,
+                       sin(half) / half / sqrt(real * real + imaginary * imaginary));
+    }
+    assert_int_equal(gains_of(file, strlen(file), read), KNURL_OK);
+    assert_int_equal(knurl_gains_from_plant(0.045, 0.5, 2000.0, found), KNURL_OK);
+    for (int i = 0; i < KNURL_GAINS; i++) {
+        CHECK_CLOSE(found[i].gain, read[i].gain, 1e-9);
+    }
+}
+
 TEST(a_plants_numbers_are_checked) {
     knurl_gain gains[KNURL_GAINS] = {{7.0, 0.7}};
     assert_int_equal(knurl_gains_from_plant(0.0, 0.5, 1000.0, gains), KNURL_ERROR_ARGUMENT);

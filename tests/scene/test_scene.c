@@ -283,10 +283,13 @@ TEST(a_surface_with_a_normal_is_turned_to_it_the_shortest_way) {
     const plane_frame about_x = frame_of(scene, add_surface(scene, &parts)); /* to -z */
     CHECK_VECTOR(about_x.axes[0], 1.0, 0.0, 0.0, 1e-15);
     CHECK_VECTOR(about_x.axes[2], 0.0, 0.0, -1.0, 1e-15);
-    parts.desc.rotation[0] = 1.0;
-    parts.desc.rotation[3] = 0.0;
-    CHECK_ADD_REFUSED(scene, &parts, KNURL_ERROR_ARGUMENT,
-                      "rotation: expected 0, 0, 0, 1 with a normal, found [1, 0, 0, 0]");
+    for (int i = 0; i < 3; i++) { /* however little it turns */
+        parts.desc.rotation[i] = 1e-4;
+        CHECK_ADD_REFUSED(scene, &parts, KNURL_ERROR_ARGUMENT, "rotation: expected 0, 0, 0, 1 with a normal, found [");
+        parts.desc.rotation[i] = 0.0;
+    }
+    memcpy(parts.desc.rotation, (const double[4]){0.1, 0.7, -0.1, 0.7}, sizeof parts.desc.rotation);
+    CHECK_ADD_REFUSED(scene, &parts, KNURL_ERROR_ARGUMENT, "found [0.1, 0.7, -0.1, 0.7]");
 }
 
 TEST(surface_is_exactly_one_shape_with_a_material) {

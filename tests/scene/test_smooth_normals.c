@@ -59,6 +59,26 @@ TEST(normals_that_cannot_be_right_are_reported_and_their_triangles_felt_flat) {
     assert_int_equal(bad_with(g * unit, unit, 0.0), 5); /* 90 degrees off */
 }
 
+/* The apex is 0.05 mm beside the middle of a base of 10 mm, which bulges by over 1 mm between normals 60 degrees apart:
+ * straight up, or over the apex. A second triangle, so that it is no plane. */
+TEST(normals_that_turn_a_sliver_over_are_bad) {
+    static const float corners[18] = {-0.005F, 0.0F,  0.0F, 0.005F, 0.0F,  0.0F, 0.0F, 0.00005F, 0.0F,
+                                      -0.005F, 0.05F, 0.0F, 0.005F, 0.05F, 0.0F, 0.0F, 0.05F,    0.01F};
+    for (int is_over = 0; is_over <= 1; is_over++) {
+        const float y = is_over ? 0.6F : 0.0F, z = is_over ? 0.6245F : 0.866F;
+        float normals[18] = {-0.5F, y, z, 0.5F, y, z, 0.0F, 0.0F, 1.0F, 0, -1, 0, 0, -1, 0, 0, -1, 0};
+        smooth_mesh m = {shape_new(6, 6, 0), normals};
+        memcpy(m.s.positions, corners, sizeof corners);
+        for (uint32_t i = 0; i < 6; i++) {
+            m.s.indices[i] = i;
+        }
+        SCOPED_SCENE *scene = scene_with(&m);
+        assert_int_equal(info_of(scene).bad_normals, is_over);
+        assert_int_equal(info_of(scene).curved_triangles, !is_over);
+        shape_free(&m.s);
+    }
+}
+
 /* Every vertex once, so that it is the first, second or third corner of its triangles. */
 TEST(a_zero_normal_is_reported_at_any_corner) {
     smooth_mesh m = smooth_make_sphere(1);

@@ -62,8 +62,7 @@ static knurl_result check(unsigned index, const knurl_effect *e) {
     (void)snprintf(name, sizeof name, "effects[%u]", index);
     result = result ? result : knurl_fields_check(name, fields, sizeof fields / sizeof *fields, e);
     if (!result && kinds[e->kind].has_axis && !(vec3_length(e->axis) > 0.0)) {
-        return knurl_fail(KNURL_ERROR_ARGUMENT, "%s: expected a vector with a length, found (%g, %g, %g)", member,
-                          e->axis[0], e->axis[1], e->axis[2]);
+        return knurl_fail(KNURL_ERROR_ARGUMENT, "%s: expected a vector with a length, found one of length 0", member);
     }
     if (!result && (e->reserved_bits | e->reserved[0] | e->reserved[1] | e->reserved[2] | e->reserved[3])) {
         return knurl_fail(KNURL_ERROR_ARGUMENT, "%s.reserved: expected zeros, found another number", name);

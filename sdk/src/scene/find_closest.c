@@ -64,7 +64,7 @@ static void look_at(search *s, const knurl_surface_data *surface) {
  * answer's triangle, which may be of another shape by now. A little more than that, so that the answer is the same. */
 static void begin_at(search *s, knurl_surface_id id, uint32_t triangle) {
     const knurl_surface_data *surface = knurl_surfaces_find(&s->scene->surfaces, id);
-    const knurl_mesh *mesh = surface && !surface->shape.plane ? surface->shape.mesh : NULL;
+    const knurl_mesh *mesh = surface ? surface->shape.mesh : NULL; /* null for a plane, too */
     if (mesh && triangle < mesh->triangle_count) {
         knurl_closest_point closest;
         knurl_pose pose;
