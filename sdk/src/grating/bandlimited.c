@@ -6,7 +6,6 @@
 
 #include "base/base.h"
 #include "grating/follow.h"
-#include "grating/phase.h"
 
 #include <math.h>
 

@@ -1,4 +1,5 @@
-/* A spatial method: its properties and its height function. SPDX-License-Identifier: MIT */
+/* A spatial method: its properties and its height function; the table of all. A new method is a number in
+ * <knurl/grating.h>, a height function and a row in methods.c. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_METHOD_H
 #define KNURL_SRC_METHOD_H
 
@@ -34,5 +35,13 @@ typedef struct knurl_method {
     int32_t follows_position; /* 1: ridges are at surface coordinates; 0: counted in metres along the path */
     int32_t needs_position;   /* 1: cannot do without surface coordinates */
 } knurl_method;
+
+/* Numbers below it are the library's own; the caller's own methods follow. */
+#define KNURL_BUILT_IN_METHODS (KNURL_METHOD_BANDLIMITED + 1)
+#define KNURL_OWN_METHODS      16
+
+/* By number, KNURL_METHOD_S1 and on; the first row is unused. A row never changes once it is counted. */
+extern knurl_method knurl_methods[KNURL_BUILT_IN_METHODS + KNURL_OWN_METHODS];
+extern int32_t knurl_method_count; /* atomic */
 
 #endif

@@ -1,5 +1,5 @@
 /* The table of spatial methods. SPDX-License-Identifier: MIT */
-#include "grating/methods.h"
+#include "grating/method.h"
 
 #include "base/atomic.h"
 #include "base/handle.h"

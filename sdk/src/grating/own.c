@@ -4,7 +4,7 @@
 #include "base/base.h"
 #include "base/rule.h"
 #include "grating/follow.h"
-#include "grating/methods.h"
+#include "grating/method.h"
 
 #include <string.h>
 

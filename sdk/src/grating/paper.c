@@ -1,7 +1,7 @@
 /* The paper's methods: S1 (Eq. 11) and S2 (Algorithm 7 with Eqs. 12, 13). SPDX-License-Identifier: MIT */
 #include "grating/method.h"
 
-#include "grating/phase.h"
+#include "grating/follow.h"
 #include "grating/play.h"
 #include "vibration/ticks.h"
 

@@ -2,7 +2,7 @@
 #ifndef KNURL_SRC_STEP_H
 #define KNURL_SRC_STEP_H
 
-#include "grating/methods.h"
+#include "grating/method.h"
 #include "grating/play.h"
 
 #include <math.h>

@@ -1,5 +1,7 @@
-/* The protections. SPDX-License-Identifier: MIT */
+/* The protections, and the closed-form limits of a device. SPDX-License-Identifier: MIT */
 #include "guard/guard.h"
+
+#include "grating/method.h"
 
 #include <string.h>
 
@@ -37,4 +39,29 @@ void knurl_guard_limit_wall(const knurl_bounds *bounds, knurl_wall *wall) {
     wall->stiffness = wall->stiffness < most ? wall->stiffness : most;
     const double highest = knurl_bounds_amplitude(bounds, wall->stiffness, material->method);
     wall->amplitude = wall->amplitude < highest ? wall->amplitude : highest;
+}
+
+void knurl_bounds_init(knurl_bounds *bounds, const knurl_hip_facts *facts, double scale) {
+    bounds->scale = scale;
+    bounds->friction = facts->viscous + KNURL_LIGHTEST_HAND;
+    bounds->lag = (0.5 + facts->delay) * (1.0 / facts->rate);
+    bounds->max_stiffness = facts->max_stiffness;
+    bounds->max_force = facts->max_force;
+    bounds->continuous_force = facts->continuous_force;
+    bounds->quantum = facts->resolution * scale;
+}
+
+double knurl_bounds_stability(const knurl_bounds *bounds, double damping) {
+    return (bounds->friction + damping * bounds->scale) / bounds->lag;
+}
+
+double knurl_bounds_stiffness(const knurl_bounds *bounds, double damping) {
+    const double stable = knurl_bounds_stability(bounds, damping);
+    return stable < bounds->max_stiffness ? stable : bounds->max_stiffness;
+}
+
+double knurl_bounds_amplitude(const knurl_bounds *bounds, double stiffness, int32_t method) {
+    const double peak = bounds->max_force / (stiffness * knurl_methods[method].swing);
+    const double steady = bounds->continuous_force / stiffness;
+    return peak < steady ? peak : steady;
 }

@@ -1,6 +1,8 @@
-/* The last stage of a force before a device. SPDX-License-Identifier: MIT */
+/* The last stage of a force before a device, and the thermal model of its motors: heat follows the square of the force
+ * with one time constant. SPDX-License-Identifier: MIT */
 #include "guard/last_stage.h"
 
+#include <math.h>
 #include <string.h>
 
 /* s for a force to grow from zero to max_force, if no slew_rate is given. */
@@ -59,4 +61,27 @@ void knurl_last_stage_note(knurl_last_stage *stage, const double force[3]) {
     vec3_copy(force, stage->force);
     stage->release = 0;
     knurl_heat_add(&stage->heat, vec3_dot(force, force));
+}
+
+void knurl_heat_init(knurl_heat *heat, const knurl_hip_facts *facts, int limits) {
+    const double square = facts->continuous_force * facts->continuous_force;
+    const int is_limited = limits && facts->max_force > facts->continuous_force;
+    const double ratio = facts->max_force / facts->continuous_force;
+    heat->square = 0.0;
+    heat->share = -expm1(-1.0 / (facts->rate * facts->heat_time)); /* exact for a force that is held for the tick */
+    heat->per_force = 1.0 / square;
+    heat->warm = is_limited ? KNURL_HEAT_WARM * square : HUGE_VAL;
+    heat->most = is_limited ? square : HUGE_VAL;
+    heat->continuous = facts->continuous_force;
+    heat->excess = ratio * ratio - 1.0;
+    heat->max_force = facts->max_force;
+}
+
+double knurl_heat_limit_warm(const knurl_heat *heat) {
+    const double left = (1.0 - knurl_heat_theta(heat)) / (1.0 - KNURL_HEAT_WARM);
+    return heat->continuous * sqrt(1.0 + heat->excess * (left < 0.0 ? 0.0 : left));
+}
+
+void knurl_heat_hold(knurl_heat *heat, double force2, double ticks) {
+    heat->square = knurl_heat_cap(heat, force2 + (heat->square - force2) * exp(ticks * log1p(-heat->share)));
 }

@@ -1,10 +1,9 @@
 /* A loop's cycles, on a thread of its own or the device's: lateness, gaps, and the ramp at the end.
  * SPDX-License-Identifier: MIT */
-#include "loop/loop_internal.h"
-
 #include "base/atomic.h"
 #include "base/rule.h"
 #include "base/vec3.h"
+#include "loop/loop_internal.h"
 #include "scene/scene.h"
 
 #include <math.h>
@@ -117,6 +116,28 @@ static void note_lateness(knurl_loop *loop, int64_t late, int overrun) {
     loop->haptic.was_overrun = overrun;
 }
 
+static void start_pace(knurl_pace *pace, const knurl_clock *clock, double rate) {
+    pace->clock = *clock;
+    pace->period_ns = 1e9 / rate;
+    pace->start_ns = clock->now_ns(clock->user);
+    pace->cycle = 0;
+}
+
+/* Sleeps until the next deadline. Returns the lateness of the wake-up, ns; *overrun: 1 if that is more than half a
+ * period. Missed periods are skipped. */
+static int64_t wait_for_period(knurl_pace *pace, int *overrun) {
+    pace->cycle++;
+    const int64_t deadline = pace->start_ns + (int64_t)((double)pace->cycle * pace->period_ns); /* no drift at 3 kHz */
+    pace->clock.sleep_until_ns(deadline, pace->clock.user);
+    pace->woke_at = pace->clock.now_ns(pace->clock.user);
+    const int64_t late = pace->woke_at - deadline;
+    *overrun = (double)late > 0.5 * pace->period_ns;
+    if ((double)late > pace->period_ns) {
+        pace->cycle += (uint64_t)((double)late / pace->period_ns);
+    }
+    return late;
+}
+
 static int32_t state_at_end(const knurl_loop *loop) {
     return loop->haptic.is_lost ? KNURL_LOOP_LOST : KNURL_LOOP_DONE;
 }
@@ -130,9 +151,9 @@ void knurl_loop_haptic_thread(void *argument) {
     knurl_device_enter_thread(loop->shared.desc.device);
     knurl_store_relaxed(&loop->shared.realtime, (uint32_t)knurl_system_make_realtime());
     knurl_store_relaxed(&loop->shared.stack_locked, (uint32_t)knurl_system_lock_stack(&stack));
-    knurl_pace_start(&loop->haptic.pace, &loop->shared.clock, loop->shared.desc.update_rate_hz);
+    start_pace(&loop->haptic.pace, &loop->shared.clock, loop->shared.desc.update_rate_hz);
     while (!knurl_loop_at_end(loop) || ramp_steps(loop) > loop->haptic.ramp_step) {
-        const int64_t late = knurl_pace_wait(&loop->haptic.pace, &overrun);
+        const int64_t late = wait_for_period(&loop->haptic.pace, &overrun);
         knurl_loop_pass_time(loop, loop->haptic.pace.woke_at);
         note_lateness(loop, late, overrun);
         if (!knurl_loop_cycle(loop)) {

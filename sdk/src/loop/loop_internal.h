@@ -17,7 +17,7 @@
 /* A tick needs some kilobytes; callbacks get the rest. */
 #define KNURL_LOOP_STACK_BYTES ((size_t)256 * 1024)
 
-/* Periodic wake-ups by absolute deadlines (pace.c). */
+/* Periodic wake-ups by absolute deadlines (cycle.c). */
 typedef struct knurl_pace {
     knurl_clock clock;
     int64_t start_ns;
@@ -25,12 +25,6 @@ typedef struct knurl_pace {
     uint64_t cycle;  /* whole periods from the start to the last deadline */
     int64_t woke_at; /* ns */
 } knurl_pace;
-
-void knurl_pace_start(knurl_pace *pace, const knurl_clock *clock, double rate);
-
-/* Sleeps until the next deadline. Returns the lateness of the wake-up, ns; *overrun: 1 if that is more than half a
- * period. Missed periods are skipped. [haptic thread] */
-int64_t knurl_pace_wait(knurl_pace *pace, int *overrun);
 
 /* A vibration set by knurl_loop_vibrate(). */
 typedef struct knurl_vibration {
@@ -136,7 +130,7 @@ void knurl_loop_init(knurl_loop *loop, const knurl_hip_facts *facts);
 /* A tick: reads the device, computes a force, writes it. Returns 0 if the loop must end. [haptic thread] */
 int knurl_loop_tick(knurl_loop *loop);
 
-/* heat.c: a loop begins with the motors' heat from the device's last loop, cooled by the time since. */
+/* A loop begins with the motors' heat from the device's last loop, cooled by the time since. */
 void knurl_loop_begin_heat(knurl_loop *loop);
 void knurl_loop_end_heat(knurl_loop *loop);
 

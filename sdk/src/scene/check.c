@@ -5,7 +5,7 @@
 #include "base/format.h"
 #include "base/rule.h"
 #include "contact/mesh_query.h"
-#include "grating/methods.h"
+#include "grating/method.h"
 
 #include <string.h>
 

@@ -3,7 +3,7 @@
 
 #include "base/base.h"
 #include "base/number.h"
-#include "grating/methods.h"
+#include "grating/method.h"
 
 void knurl_material_desc_init(knurl_material_desc *desc, uint32_t size) {
     const knurl_material_desc defaults = {.stiffness = 400.0};
