@@ -4,7 +4,7 @@
 #define KNURL_GLTF_FIELDS_HPP
 
 #include "file/failure.hpp"
-#include "file/json_text.hpp"
+#include "file/json.hpp"
 
 #include <cstdint>
 #include <optional>

@@ -1,8 +1,10 @@
-// Knurl: a JSON value. Used instead of nlohmann's, whose destructor allocates and ends the process if memory runs out.
-// This one's does not, and a value can be destroyed after any exception.
-// SPDX-License-Identifier: MIT
+// Knurl: a JSON value, and a parser with limits against hostile files. Used instead of nlohmann's, whose destructor
+// allocates and ends the process if memory runs out. This one's does not, and a value can be destroyed after any
+// exception. SPDX-License-Identifier: MIT
 #ifndef KNURL_GLTF_JSON_HPP
 #define KNURL_GLTF_JSON_HPP
+
+#include "budget.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -69,6 +71,16 @@ class Json {
                  std::unique_ptr<Object>>
         value_ = nullptr; // 16 bytes: a file may hold millions
 };
+
+/** The deepest nesting of objects and arrays; a plain glTF file has 7. */
+constexpr size_t json_depth_max = 32;
+
+/** The most values in a file: a tree takes some 100 bytes for each, however short its text. */
+constexpr size_t json_values_max = size_t{1} << 23U;
+
+/** Parses without recursion. Throws Failure for a syntax error, deeper nesting, more values, or a key that appears
+ * twice in one object: parsers differ in which one they keep. */
+Json parse_json(std::string_view text, Budget &budget);
 
 } // namespace knurl::gltf
 #endif
