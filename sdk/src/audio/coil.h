@@ -7,7 +7,7 @@
 
 #include <stdint.h>
 
-#define KNURL_COIL_TAPS  8  /* ticks that a sample is computed from; it lies in their middle */
+#define KNURL_COIL_TAPS  8  /* ticks around a sample, from which it is computed */
 #define KNURL_COIL_STEPS 64 /* of the table, a tick */
 
 /* Ticks to samples. */

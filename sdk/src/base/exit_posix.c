@@ -13,7 +13,7 @@ enum {
     ENDS,    /* left to that handler: if it calls exit() or main() returns, atexit() still zeroes forces */
     FAULT,   /* as CRASH; as ENDS if the process's runtime recovers from it */
     CRASH,   /* zero first, then that handler */
-    SUSPENDS /* as ENDS; without a handler it stops the process, which may continue later */
+    SUSPENDS /* by default stops the process, which may continue later; with a handler, as ENDS */
 };
 
 /* Every signal that by default ends or stops a process, except SIGKILL and SIGSTOP, which cannot be caught, and

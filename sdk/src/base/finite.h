@@ -17,7 +17,7 @@ becomes a force, and gratings lose their ridges. Add -fno-fast-math after your o
 (Knurl's CMakeLists.txt does that by itself)."
 #endif
 
-/* 0: doubles are computed as doubles. 16: so, and _Float16 is computed as _Float16. */
+/* 0: every type is evaluated as itself. 16: the same, _Float16 included. */
 #if FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16
 #error                                                                                                                 \
     "Knurl must be compiled with doubles that are computed as doubles (FLT_EVAL_METHOD 0): with x87's longer ones S1 \

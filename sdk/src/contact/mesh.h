@@ -26,7 +26,7 @@ typedef struct knurl_vertex_corners {
 
 /* The edges between triangles. Angles: rad, the mean by length and the largest. */
 typedef struct knurl_mesh_facets {
-    uint32_t edges, hard_edges; /* all; those over which the felt surface's normal turns */
+    uint32_t edges, hard_edges; /* all; those at which the felt normal jumps */
     double facet_angle[2];      /* between the triangles */
     double felt_angle[2];       /* between the felt surfaces */
 } knurl_mesh_facets;

@@ -8,7 +8,8 @@
 /* Steps towards the felt point: two on a stroke over a sphere of 1,280 triangles, where the first is 0.1 mm long. */
 #define STEPS 6
 
-/* m: a point this far beside is the felt one. At a radius of 5 mm the direction is then off by 0.01 degrees. */
+/* m: the search for the felt point ends this close to it. At a radius of curvature of 5 mm the direction is then off by
+ * 0.01 degrees. */
 #define ARRIVED 1e-6
 
 /* Slope of the line to the HIP, against the normal at a hard edge, up to which the HIP is held from the edge, as in a

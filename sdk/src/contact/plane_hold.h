@@ -6,7 +6,7 @@
 #include "base/base.h"
 #include "contact/plane.h"
 
-/* 1 if a HIP that was inside a rectangle, and is at a height of z (m) above the same side, still is. */
+/* 1 if a rectangle that held a HIP still holds it. z: m, its height above the same side. */
 static inline int knurl_plane_keeps(const knurl_plane *plane, const double hip[3], double z) {
     return z <= KNURL_ON_SURFACE && knurl_plane_spans(plane, hip);
 }

@@ -11,10 +11,10 @@ typedef struct knurl_shape_facts {
     uint32_t reversed_twins; /* triangles dropped because another has the same corners with opposite winding */
     uint32_t turned;         /* triangles turned over to face like the rest of their connected component */
     uint32_t mixed;          /* triangles that still face against the rest of their component */
-    double seam;             /* m: edges side by side within this distance touch; casts hit so far beyond an edge */
-    uint32_t touching;       /* pairs of triangles that touch, except along a shared edge */
-    uint32_t curved;         /* triangles that are felt curved */
-    uint32_t bad_normals;    /* triangles that are felt flat because their normals do not describe a surface */
+    double seam;          /* m: edges closer than this touch, and a cast hits a face up to this far beyond its edges */
+    uint32_t touching;    /* pairs of triangles that touch, except along a shared edge */
+    uint32_t curved;      /* triangles that are felt curved */
+    uint32_t bad_normals; /* triangles that are felt flat because their normals do not describe a surface */
     int32_t has_computed_normals;
     double bulge;              /* m: greatest distance of the felt surface from the triangles */
     uint32_t projection_seams; /* edges between triangles whose coordinates are projected differently */

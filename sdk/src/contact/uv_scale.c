@@ -24,7 +24,7 @@ static int bin_of(double length) {
     return bin < 0 ? 0 : bin < BINS ? bin : BINS - 1;
 }
 
-/* The last of the bins, WINDOW of them, that hold the most area. */
+/* Finds the WINDOW neighbouring bins that hold the most area; returns the last of them. */
 static int find_window(const double area[BINS]) {
     double held = 0.0, most = -1.0;
     int best = 0;

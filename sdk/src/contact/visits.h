@@ -22,7 +22,7 @@ static inline knurl_visits knurl_visits_of(uint32_t count) {
     return visits;
 }
 
-/* Takes `count` visits. 0 if so many are not left: the query must then end. visits: null: unlimited. */
+/* Takes `count` visits. Returns 0 if fewer are left; the query must then end. visits: null: unlimited. */
 static inline int knurl_visits_take(knurl_visits *visits, uint32_t count) {
     if (!visits) {
         return 1;

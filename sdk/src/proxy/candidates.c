@@ -29,7 +29,7 @@ static const struct {
  * list, and a long list takes longer to build. A query also tests all dynamic surfaces, so with many of those a longer
  * list and fewer queries are faster. */
 #define ENOUGH            12
-#define DYNAMIC_A_SURFACE 16 /* dynamic surfaces that allow one more in the list */
+#define DYNAMIC_A_SURFACE 16 /* so many dynamic surfaces lengthen the list by one */
 
 /* m: subtracted from a clearance: the margin passed to knurl_candidate_is_near(), 1e-9, and rounding. */
 #define ROUNDING 2e-9

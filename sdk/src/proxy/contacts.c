@@ -45,7 +45,7 @@ int knurl_contacts_add(knurl_contacts *c, knurl_candidate *candidate, const knur
 void knurl_contacts_share(const knurl_contacts *c, knurl_active_contact *a) {
     const double whole = c->proxy.whole, depth = c->proxy.depth, z = a->contact.z;
     if (a->candidate->contact.inside && whole > 0.0) {
-        a->share = z < 0.0 ? -z / whole : 0.0; /* hardly above 1: share_depth() */
+        a->share = z < 0.0 ? -z / whole : 0.0; /* at most slightly above 1, see share_depth() */
         a->friction_share = a->share * vec3_dot(a->normal, c->proxy.normal);
         if (!(a->surface->shape.bulge > 0.0)) { /* a smooth mesh finds its own */
             knurl_pose_vector_to_own(a->pose, c->proxy.normal, a->contact.normal);

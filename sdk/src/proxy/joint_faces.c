@@ -54,9 +54,9 @@ static void set_contact(const knurl_joint_search *m, const knurl_active_faces *f
 }
 
 /* Shares the depth among the obstacles whose faces press, each along its own normal, such that their pushes add up to
- * it. In a crease under 90 degrees faces press more than the proxy is away, up to any multiple of it if walls are
- * nearly parallel, and cancel each other. Such pushes would move the HIP sideways as soon as one wall is softer, or
- * begins later. So each is mixed with an equal share along the depth so that each is at most as long. */
+ * it. In a crease under 90 degrees the pushes are longer than the depth, without bound as the walls become parallel,
+ * and mostly cancel. If one wall is softer, or begins later, they would not cancel and would throw the HIP sideways.
+ * So each push is blended with an equal share of the depth until none is longer than the depth. */
 static void share_depth(knurl_joint_search *m, const knurl_active_faces *faces, double depth) {
     const knurl_active_face *most[KNURL_ACTIVE_FACES_MAX];
     double push[KNURL_ACTIVE_FACES_MAX][3], press[KNURL_ACTIVE_FACES_MAX], longest = depth, total = 0.0;

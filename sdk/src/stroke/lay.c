@@ -27,7 +27,7 @@ typedef struct path {
     double rows[2 * HALF_ROWS + 1][6];
     uint32_t count;
     double length;  /* m */
-    double stretch; /* mean growth of the grating's coordinate per metre along it */
+    double stretch; /* mean change of the grating's coordinate per metre of the path */
     int is_flat;
 } path;
 

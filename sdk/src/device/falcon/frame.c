@@ -20,7 +20,7 @@ void knurl_falcon_encode(const int16_t motors[3], uint32_t flags, uint8_t frame[
     frame[END] = '>';
 }
 
-/* 1 if `byte` is valid at this place. Of the spare byte nothing is known except that it is not a bracket. */
+/* 1 if `byte` is valid at this place. The spare byte may be anything but a bracket. */
 static int fits(uint32_t at, uint8_t byte) {
     const uint32_t most = at < FLAGS ? FIRST + 15u : FIRST + 127u;
     return at == 0 ? byte == '<' : at == END ? byte == '>' : byte >= FIRST && byte <= most;
