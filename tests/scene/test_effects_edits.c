@@ -49,6 +49,9 @@ TEST(an_effect_that_is_wrong_is_refused_by_number_and_field_and_the_old_ones_sta
         {AT(spacing), 0.0, "effects[1].spacing: expected 1e-06 to 1000000000 m, found 0"},
         {AT(max_force), 1001.0, "effects[1].max_force: expected 0.01 to 1000 N, found 1001"},
         {AT(max_force), -INFINITY, "effects[1].max_force: expected 0.01 to 1000 N, found -inf"},
+        {AT(reserved[0]), 1.0, "effects[1].reserved: expected zeros"},
+        {AT(reserved[1]), 1.0, "effects[1].reserved: expected zeros"},
+        {AT(reserved[2]), 1.0, "effects[1].reserved: expected zeros"},
         {AT(reserved[3]), 1.0, "effects[1].reserved: expected zeros"},
     };
     SCOPED_SCENE *scene = free_scene();
