@@ -167,10 +167,10 @@ TEST(a_contact_with_what_is_no_longer_there_is_over) {
         candidate.generation = 3;
         candidate.in_contact = candidate.has_previous = 1;
         candidate.contact.inside = 1;
-        candidate.guard.depth = candidate.guard.height = 0.001;
+        candidate.wall.depth = candidate.wall.height = 0.001;
         knurl_candidate_note_change(&candidate, gone ? NULL : &surface);
         assert_false(candidate.in_contact || candidate.has_previous || candidate.contact.inside);
         assert_int_equal(candidate.generation, gone ? 3 : 7);
-        CHECK_SAME(candidate.guard.depth + candidate.guard.height, 0.0);
+        CHECK_SAME(candidate.wall.depth + candidate.wall.height, 0.0);
     }
 }

@@ -41,11 +41,11 @@ static inline void knurl_projection_place(int side, const double p[3], double co
 
 /* The direction of a triangle. */
 static inline int knurl_projection_side_of(const double corners[3][3]) {
-    double ab[3], ac[3], normal[3];
+    double ab[3], ac[3], across[3];
     vec3_sub(corners[1], corners[0], ab);
     vec3_sub(corners[2], corners[0], ac);
-    vec3_cross(ab, ac, normal);
-    return knurl_projection_side(normal);
+    vec3_cross(ab, ac, across);
+    return knurl_projection_side(across);
 }
 
 #endif

@@ -66,16 +66,16 @@ static inline void knurl_guard_begin(knurl_guard *guard, double attenuation) {
 
 /* The entry ramp: limits how fast the depth grows. It starts again from 0 while no force is sent. */
 static inline void knurl_guard_enter(const knurl_guard *guard, knurl_wall *wall, uint32_t *flags) {
-    const double most = wall->contact->depth + guard->entry;
+    const double most = wall->state->depth + guard->entry;
     if (KNURL_UNLIKELY(guard->gain <= 0.0)) {
-        wall->contact->depth = 0.0;
+        wall->state->depth = 0.0;
         return;
     }
     if (KNURL_UNLIKELY(-wall->z > most)) {
         *flags |= KNURL_TICK_ENTRY;
         wall->z = -most;
     }
-    wall->contact->depth = knurl_max(-wall->z, 0.0);
+    wall->state->depth = knurl_max(-wall->z, 0.0);
 }
 
 /* Before a contact's force: clamps its wall, limits its depth, and softens it during a passivity alarm. */
@@ -94,13 +94,13 @@ static inline void knurl_guard_before(knurl_guard *guard, knurl_wall *wall, uint
 /* After the force: returns the texture's own step in this tick, N, which the slew limit allows. Also reports the step
  * to the passivity controller, which must not mistake a hand that a texture moves for an unstable wall. */
 static inline double knurl_guard_after(knurl_guard *guard, const knurl_wall *wall) {
-    knurl_wall_state *contact = wall->contact;
-    const double step = fabs(wall->height - contact->height);
+    knurl_wall_state *state = wall->state;
+    const double step = fabs(wall->height - state->height);
     if (knurl_passivity_counts(&guard->passivity)) {
         guard->passivity.moved += step;
-        guard->passivity.crossings += (wall->height > 0.0) != (contact->height > 0.0);
+        guard->passivity.crossings += (wall->height > 0.0) != (state->height > 0.0);
     }
-    contact->height = wall->height;
+    state->height = wall->height;
     return wall->stiffness * step;
 }
 

@@ -14,7 +14,7 @@ typedef struct knurl_wall_state {
 /* At one tick. Scene units. */
 typedef struct knurl_wall {
     const knurl_material_desc *material;
-    knurl_wall_state *contact;
+    knurl_wall_state *state;
     double z;         /* m: signed distance, negative inside; the entry ramp limits its depth */
     double stiffness; /* N/m */
     double amplitude; /* m */
@@ -24,9 +24,9 @@ typedef struct knurl_wall {
 
 /* Sets a wall from its material and amplitude (m) at z (m, scene), before the forces. */
 static inline void knurl_wall_init(knurl_wall *wall, const knurl_material_desc *material, double amplitude, double z,
-                                   knurl_wall_state *contact) {
+                                   knurl_wall_state *state) {
     wall->material = material;
-    wall->contact = contact;
+    wall->state = state;
     wall->z = z;
     wall->stiffness = material->stiffness;
     wall->amplitude = amplitude;

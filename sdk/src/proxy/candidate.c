@@ -80,7 +80,7 @@ void knurl_candidate_set_grating(knurl_candidate *candidate, const knurl_record 
 void knurl_candidate_end_contact(knurl_candidate *candidate) {
     candidate->in_contact = 0;
     memset(&candidate->contact, 0, sizeof candidate->contact);
-    knurl_wall_end(&candidate->guard);
+    knurl_wall_end(&candidate->wall);
 }
 
 void knurl_candidate_note_change(knurl_candidate *candidate, const knurl_surface_data *surface) {

@@ -31,9 +31,9 @@ typedef struct knurl_candidate {
     knurl_grating_state grating;
     knurl_grating plays; /* the grating of the record with `plays_edits`, but for its amplitude */
     uint64_t plays_edits;
-    knurl_wall_state guard;
-    double proxy[3]; /* of the last contact, scene axes */
-    double normal[3];
+    knurl_wall_state wall;
+    double proxy[3];    /* of the last contact, scene axes */
+    double normal[3];   /* unit, scene axes */
     uint32_t is_unfelt; /* 1: a smooth mesh's triangles, but not its surface, were in contact at the last tick */
     double anchor[3];   /* friction: the point where the HIP sticks, shape's frame */
     knurl_projection_carry carry; /* of projected coordinates */

@@ -207,8 +207,8 @@ __attribute__((noinline)) static void find_jointly(knurl_contacts *c, const knur
     c->proxy.ramped_depth = knurl_contacts_have_slipped(c) ? c->slip.ramped_depth : 0.0;
     for (uint32_t i = 0; i < c->candidates.count && c->proxy.holders; i++) {
         const knurl_candidate *candidate = knurl_candidates_at(&c->candidates, i);
-        c->proxy.ramped_depth = candidate->in_contact && candidate->guard.depth > c->proxy.ramped_depth
-                                    ? candidate->guard.depth
+        c->proxy.ramped_depth = candidate->in_contact && candidate->wall.depth > c->proxy.ramped_depth
+                                    ? candidate->wall.depth
                                     : c->proxy.ramped_depth;
     }
     knurl_joint_contact(c, index, &path, flags);

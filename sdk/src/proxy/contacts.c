@@ -26,7 +26,7 @@ int knurl_contacts_add(knurl_contacts *c, knurl_candidate *candidate, const knur
     if (a->begins) {
         memset(&candidate->grating, 0, sizeof candidate->grating);
         candidate->facet.side = 0;
-        knurl_wall_begin(&candidate->guard, c->proxy.ramped_depth);
+        knurl_wall_begin(&candidate->wall, c->proxy.ramped_depth);
     }
     candidate->contact = touched->state;
     candidate->in_contact = 1;

@@ -17,9 +17,9 @@
 
 /* A HIP that was pressed into a surface and has come off its rim. */
 typedef struct knurl_slip {
-    double time;     /* s: of the slip; negative: no slip, or the HIP is held again */
-    double proxy[3]; /* last proxy on the surface, scene */
-    double normal[3];
+    double time;         /* s: of the slip; negative: no slip, or the HIP is held again */
+    double proxy[3];     /* last proxy on the surface, scene */
+    double normal[3];    /* unit */
     double ramped_depth; /* m: depth there, as limited by the entry ramp */
 } knurl_slip;
 

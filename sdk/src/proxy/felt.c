@@ -70,7 +70,7 @@ int knurl_felt_find(knurl_active_contact *a) {
     if (a->is_unfelt) { /* felt as without contact, until it begins */
         memset(&candidate->grating, 0, sizeof candidate->grating);
         if (!a->begins) {
-            knurl_wall_end(&candidate->guard);
+            knurl_wall_end(&candidate->wall);
         }
         return 0;
     }

@@ -22,7 +22,7 @@ typedef struct knurl_joint_search {
     int unknown;      /* 1: the visits ran out before the contacts were found */
     double margin;    /* m: obstacles this far around the path were collected; a proxy may move no farther */
     double proxy[3];  /* results, with `touched` */
-    double normal[3];
+    double normal[3]; /* unit */
     uint32_t pressed;
     double whole; /* m: depth that the pressed shapes share; 0: each has its own */
 } knurl_joint_search;

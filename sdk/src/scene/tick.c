@@ -173,11 +173,11 @@ static inline double render_contact(knurl_hip *hip, const knurl_tick_input *inpu
     const int64_t events = c->candidate->grating.event_count;
     knurl_wall wall;
     knurl_contact_force share;
-    knurl_wall_init(&wall, &c->record->material, c->record->amplitude, c->contact.z, &c->candidate->guard);
+    knurl_wall_init(&wall, &c->record->material, c->record->amplitude, c->contact.z, &c->candidate->wall);
     knurl_guard_before(&hip->guard, &wall, &out->flags);
     knurl_force_law(&motion, c, plays, &wall, &share);
     double step = 0.0;
-    if (plays || wall.contact->height != 0.0) { /* else it was smooth, and still is */
+    if (plays || wall.state->height != 0.0) { /* else it was smooth, and still is */
         step = knurl_min(1.0, c->share) * knurl_guard_after(&hip->guard, &wall);
     }
     if (plays) {
