@@ -1,5 +1,6 @@
 /* Replacing a surface by another shape: contact continues. SPDX-License-Identifier: MIT */
 #include "proxy/contacts.h"
+#include "scene/scene.h"
 
 #include "support/ledger.h"
 #include "support/poses.h"
@@ -172,5 +173,24 @@ TEST(a_contact_with_what_is_no_longer_there_is_over) {
         assert_false(candidate.in_contact || candidate.has_previous || candidate.contact.inside);
         assert_int_equal(candidate.generation, gone ? 3 : 7);
         CHECK_SAME(candidate.wall.depth + candidate.wall.height, 0.0);
+    }
+}
+
+/* The plane lies round the origin; in the last tick it was a metre away. */
+TEST(a_surface_is_near_in_the_tick_after_the_edit_that_brings_it) {
+    static const float away[6] = {1.0F, 1.0F, 1.0F, 2.0F, 2.0F, 2.0F};
+    surface_parts parts = surface_plane();
+    SCOPED_SCENE *scene = scene_of(&parts);
+    const knurl_surface_data *surface = knurl_surfaces_at(&scene->surfaces, 0);
+    const knurl_hip_clock clock = {0.005, 0.004, 0.001, 5};
+    for (int is_edited = 0; is_edited <= 1; is_edited++) {
+        knurl_candidate candidate;
+        knurl_hip_path path;
+        memset(&candidate, 0, sizeof candidate);
+        memset(&path, 0, sizeof path);
+        memcpy(candidate.swept, away, sizeof away);
+        candidate.swept_tick = 4;
+        candidate.swept_edits = surface->record->edits - (is_edited ? 1 : 0);
+        assert_int_equal(knurl_candidate_is_swept_near(&candidate, surface, &clock, &path, 0.001), is_edited);
     }
 }

@@ -115,6 +115,36 @@ static inline void check_refused(process *p, int code, const char *words, const 
     process_free(p);
 }
 
+/** One wrong command line: its words, apart by spaces, the exit code, and words of the sentence, apart by '|'. A word
+ * may begin with %P, the demo plate, or %T, the folder. */
+typedef struct wrong_line {
+    const char *line;
+    int code;
+    const char *words;
+} wrong_line;
+
+/** Also that no output is left: out.csv, out.gltf or a part of one. */
+static inline void check_wrong(const wrong_line *w) {
+    char text[1024];
+    char expanded[16][1024];
+    const char *arguments[PROCESS_ARGUMENTS + 1] = {KNURL_TEST_TOOL};
+    size_t count = 1;
+    (void)snprintf(text, sizeof text, "%s", w->line);
+    for (char *word = strtok(text, " "); word && count <= sizeof expanded / sizeof *expanded;
+         word = strtok(NULL, " ")) {
+        const char *head = strncmp(word, "%P", 2) == 0   ? KNURL_TEST_ASSETS "/plate_1d.glb"
+                           : strncmp(word, "%T", 2) == 0 ? tool_folder
+                                                         : "";
+        (void)snprintf(expanded[count - 1], sizeof expanded[0], "%s%s", head, head[0] ? word + 2 : word);
+        arguments[count] = expanded[count - 1];
+        count++;
+    }
+    process p = run_tool(arguments);
+    check_refused(&p, w->code, w->words, w->line);
+    assert_int_equal(files_that_end(".part"), 0);
+    assert_false(file_exists(tool_path("out.csv")) || file_exists(tool_path("out.gltf")));
+}
+
 /** It went well, and said nothing on standard error but notes, a line each. */
 static inline void check_done(const process *p) {
     int good = p->signal == 0 && p->exit_code == 0 && !strchr(p->err, '\r') && !strchr(p->err, '\033');

@@ -9,35 +9,7 @@ static const char plate[] = KNURL_TEST_ASSETS "/plate_1d.glb";
 #define TAG                                                                                                            \
     "{\"knurl\":{\"version\":1,\"spatial_frequency\":[1000,0],\"amplitude\":0.0002,\"stiffness\":400,\"axis\":[1,0,0]}}"
 
-/* One wrong command line: its words, apart by spaces, the exit code, and words of the sentence, apart by '|'. */
-typedef struct wrong {
-    const char *line;
-    int code;
-    const char *words;
-} wrong;
-
-/* %P: the demo plate, %G: a good motion for scan, %T: the folder. */
-static void check_wrong(const wrong *w) {
-    char text[1024];
-    char expanded[16][1024];
-    const char *arguments[PROCESS_ARGUMENTS + 1] = {KNURL_TEST_TOOL};
-    size_t count = 1;
-    (void)snprintf(text, sizeof text, "%s", w->line);
-    for (char *word = strtok(text, " "); word && count <= COUNT_OF(expanded); word = strtok(NULL, " ")) {
-        const int special = word[0] == '%';
-        const char *head = special && word[1] == 'P' ? plate : special && word[1] == 'G' ? tool_path("good.csv") : "";
-        (void)snprintf(expanded[count - 1], sizeof expanded[0], "%s%s", special && word[1] == 'T' ? tool_folder : head,
-                       special ? word + 2 : word);
-        arguments[count] = expanded[count - 1];
-        count++;
-    }
-    process p = run_tool(arguments);
-    check_refused(&p, w->code, w->words, w->line);
-    assert_int_equal(files_that_end(".part"), 0);
-    assert_false(file_exists(tool_path("out.csv")));
-}
-
-static void check_all_wrong(const wrong *table, size_t count) {
+static void check_all_wrong(const wrong_line *table, size_t count) {
     write_text(tool_path("good.csv"), "vx,vy\n0.1,0\n");
     for (size_t i = 0; i < count; i++) {
         check_wrong(&table[i]);
@@ -45,7 +17,7 @@ static void check_all_wrong(const wrong *table, size_t count) {
 }
 
 TEST(wrong_usage_of_the_tool_is_reported) {
-    static const wrong table[] = {
+    static const wrong_line table[] = {
         {"fly", 2, "fly|inspect"},
         {"--fast", 2, "--fast"},
         {"run", 2, "run|file"},
@@ -57,9 +29,9 @@ TEST(wrong_usage_of_the_tool_is_reported) {
         {"devices all", 2, "all"},
         {"devices --xml", 2, "--xml"},
         {"signal extra --method T1", 2, "extra"},
-        {"run %P --stroke line --trace %G", 2, "--stroke|--trace"},
-        {"run %P --even --response %G", 2, "--even|--response"},
-        {"inspect %P --even --response %G", 2, "--even|--response"},
+        {"run %P --stroke line --trace %T/good.csv", 2, "--stroke|--trace"},
+        {"run %P --even --response %T/good.csv", 2, "--even|--response"},
+        {"inspect %P --even --response %T/good.csv", 2, "--even|--response"},
         {"--version now", 2, "--version: unexpected argument 'now'"},
         {"man run", 2, "man: unexpected argument 'run'"},
         {"completion bash zsh", 2, "completion: unexpected argument 'zsh'"},
@@ -76,20 +48,20 @@ TEST(a_missing_value_is_reported) {
         process p = RUN_TOOL("run", plate, "--fast", options[i]);
         check_refused(&p, 2, options[i], options[i]);
     }
-    static const wrong table[] = {
+    static const wrong_line table[] = {
         {"signal --period-ms 3 --ticks 6", 2, "--method"},
         {"signal --method T1 --ticks 6", 2, "--period-ms"},
         {"signal --method T1 --period-ms 3", 2, "--ticks"},
-        {"scan --fs 1000,0 --amplitude 1 --in %G", 2, "found no --method"},
-        {"scan --method S2 --amplitude 1 --in %G", 2, "found no --fs"},
-        {"scan --method S2 --fs 1000,0 --in %G", 2, "found no --amplitude"},
+        {"scan --fs 1000,0 --amplitude 1 --in %T/good.csv", 2, "found no --method"},
+        {"scan --method S2 --amplitude 1 --in %T/good.csv", 2, "found no --fs"},
+        {"scan --method S2 --fs 1000,0 --in %T/good.csv", 2, "found no --amplitude"},
         {"scan --method S2 --fs 1000,0 --amplitude 1", 2, "found no --in"},
     };
     check_all_wrong(table, COUNT_OF(table));
 }
 
 TEST(a_number_out_of_range_is_reported) {
-    static const wrong table[] = {
+    static const wrong_line table[] = {
         {"run %P --fast --rate 0 --out %T/out.csv", 2, "--rate|100|10000"},
         {"run %P --fast --rate 1e9 --out %T/out.csv", 2, "--rate|1e9"},
         {"run %P --fast --rate -1000", 2, "--rate"},
@@ -107,14 +79,14 @@ TEST(a_number_out_of_range_is_reported) {
         {"signal --method T1 --period-ms 3 --ticks 6 --rate 0", 2, "--rate"},
         {"signal --method T1 --period-ms 3 --ticks 6 --rate 1e9", 2, "--rate"},
         {"signal --method T1 --period-ms 3 --ticks 6 --amplitude -1", 2, "--amplitude"},
-        {"scan --method S2 --fs 1000,0 --amplitude -1 --in %G", 2, "--amplitude"},
-        {"scan --method S2 --fs 1000,0 --amplitude 1 --rate 0 --in %G", 2, "--rate"},
-        {"scan --method S2 --fs 1000,0 --amplitude 1 --rate 1e9 --in %G", 2, "--rate"},
-        {"scan --method S2 --fs -1,0 --amplitude 1 --in %G", 2, "spatial_frequency"},
-        {"scan --method S2 --fs nan,0 --amplitude 1 --in %G", 2, "--fs"},
-        {"scan --method S2 --fs wide --amplitude 1 --in %G", 2, "--fs|wide"},
-        {"scan --method S2 --fs 1,2,3 --amplitude 1 --in %G", 2, "--fs|1,2,3"},
-        {"scan --method S2 --fs 1, --amplitude 1 --in %G", 2, "--fs"},
+        {"scan --method S2 --fs 1000,0 --amplitude -1 --in %T/good.csv", 2, "--amplitude"},
+        {"scan --method S2 --fs 1000,0 --amplitude 1 --rate 0 --in %T/good.csv", 2, "--rate"},
+        {"scan --method S2 --fs 1000,0 --amplitude 1 --rate 1e9 --in %T/good.csv", 2, "--rate"},
+        {"scan --method S2 --fs -1,0 --amplitude 1 --in %T/good.csv", 2, "spatial_frequency"},
+        {"scan --method S2 --fs nan,0 --amplitude 1 --in %T/good.csv", 2, "--fs"},
+        {"scan --method S2 --fs wide --amplitude 1 --in %T/good.csv", 2, "--fs|wide"},
+        {"scan --method S2 --fs 1,2,3 --amplitude 1 --in %T/good.csv", 2, "--fs|1,2,3"},
+        {"scan --method S2 --fs 1, --amplitude 1 --in %T/good.csv", 2, "--fs"},
     };
     check_all_wrong(table, COUNT_OF(table));
 }
@@ -136,12 +108,12 @@ TEST(an_empty_name_of_a_scene_is_reported) {
 }
 
 TEST(a_number_of_ticks_that_is_no_whole_number_is_reported) {
-    static const wrong table[] = {{"signal --method T1 --period-ms 3 --ticks 2.5", 2, "--ticks|2.5"}};
+    static const wrong_line table[] = {{"signal --method T1 --period-ms 3 --ticks 2.5", 2, "--ticks|2.5"}};
     check_all_wrong(table, COUNT_OF(table));
 }
 
 TEST(unknown_names_are_reported_with_those_that_are_known) {
-    static const wrong table[] = {
+    static const wrong_line table[] = {
         {"run %P --fast --method S3 --out %T/out.csv", 2, "S3|S1|S2"},
         {"run %P --fast --method s2", 2, "s2"},
         {"run %P --fast --stroke zigzag --out %T/out.csv", 2,
@@ -153,13 +125,13 @@ TEST(unknown_names_are_reported_with_those_that_are_known) {
         {"run %P --fast --surface ceiling --out %T/out.csv", 1, "ceiling|bar 1 mm|bar 2 mm"},
         {"signal --method T4 --period-ms 3 --ticks 6", 2, "T4|T1|T2|T3"},
         {"signal --method S1 --period-ms 3 --ticks 6", 2, "S1|T1"},
-        {"scan --method T3 --fs 1000,0 --amplitude 1 --in %G", 2, "T3|S1|S2"},
+        {"scan --method T3 --fs 1000,0 --amplitude 1 --in %T/good.csv", 2, "T3|S1|S2"},
     };
     check_all_wrong(table, COUNT_OF(table));
 }
 
 TEST(an_unavailable_device_fails_with_a_sentence) {
-    static const wrong table[] = {
+    static const wrong_line table[] = {
         {"run %P --fast --device touch --out %T/out.csv", 1, "touch"},
         {"run %P --fast --device touch:Left", 1, "touch"},
         {"run %P --fast --device falcon", 1, "falcon"},
@@ -202,14 +174,15 @@ TEST(a_scene_that_cannot_be_read_is_reported_with_its_name) {
         char line[256];
         (void)snprintf(line, sizeof line, "%s %%T/%s%s", commands[i % 2], files[i / 2][0],
                        i % 2 ? " --fast --out %T/out.csv" : "");
-        const wrong w = {line, 1, files[i / 2][1]};
+        const wrong_line w = {line, 1, files[i / 2][1]};
         check_wrong(&w);
     }
 }
 
 TEST(run_on_an_untagged_scene_fails_and_hints_at_inspect) {
     (void)write_plate("untagged.gltf", "");
-    static const wrong table[] = {{"run %T/untagged.gltf --fast --out %T/out.csv", 1, "untagged.gltf|tag|inspect"}};
+    static const wrong_line table[] = {
+        {"run %T/untagged.gltf --fast --out %T/out.csv", 1, "untagged.gltf|tag|inspect"}};
     check_all_wrong(table, COUNT_OF(table));
 }
 
@@ -233,11 +206,11 @@ TEST(a_bad_trace_is_reported_with_its_file_line_and_column) {
                   {"t,x,y,z\n1.79e9,0,0,0\n1.79e9,0,0,0\n", "trace.csv|the last from 0 to 86400, found 1.79e+09"}};
     for (size_t i = 0; i < COUNT_OF(traces); i++) {
         write_text(tool_path("trace.csv"), traces[i].text);
-        const wrong w = {"run %P --fast --trace %T/trace.csv --out %T/out.csv", 1, traces[i].words};
+        const wrong_line w = {"run %P --fast --trace %T/trace.csv --out %T/out.csv", 1, traces[i].words};
         check_wrong(&w);
     }
-    static const wrong table[] = {{"run %P --fast --trace %T/gone.csv --out %T/out.csv", 1, "gone.csv"},
-                                  {"run %P --fast --trace %T --out %T/out.csv", 1, "tool_"}};
+    static const wrong_line table[] = {{"run %P --fast --trace %T/gone.csv --out %T/out.csv", 1, "gone.csv"},
+                                       {"run %P --fast --trace %T --out %T/out.csv", 1, "tool_"}};
     check_all_wrong(table, COUNT_OF(table));
 }
 
@@ -255,16 +228,16 @@ TEST(a_bad_motion_for_scan_is_reported_with_its_file_line_and_column) {
                    {"vx,vy\n1e999,0\n", "motion.csv|line 2|vx"}};
     for (size_t i = 0; i < COUNT_OF(motions); i++) {
         write_text(tool_path("motion.csv"), motions[i].text);
-        const wrong w = {"scan --method S2 --fs 1000,0 --amplitude 1 --in %T/motion.csv", 1, motions[i].words};
+        const wrong_line w = {"scan --method S2 --fs 1000,0 --amplitude 1 --in %T/motion.csv", 1, motions[i].words};
         check_wrong(&w);
     }
-    static const wrong table[] = {{"scan --method S2 --fs 1000,0 --amplitude 1 --in %T/gone.csv", 1, "gone.csv"}};
+    static const wrong_line table[] = {{"scan --method S2 --fs 1000,0 --amplitude 1 --in %T/gone.csv", 1, "gone.csv"}};
     check_all_wrong(table, COUNT_OF(table));
 }
 
 TEST(an_output_that_cannot_be_written_is_reported_and_nothing_is_left) {
-    static const wrong table[] = {{"run %P --fast --seconds 0.1 --out %T/no/such/folder/o.csv", 1, "o.csv"},
-                                  {"run %P --fast --seconds 0.1 --out %T", 1, "tool_"}};
+    static const wrong_line table[] = {{"run %P --fast --seconds 0.1 --out %T/no/such/folder/o.csv", 1, "o.csv"},
+                                       {"run %P --fast --seconds 0.1 --out %T", 1, "tool_"}};
     check_all_wrong(table, COUNT_OF(table));
     assert_false(file_exists(tool_path("no")));
 }

@@ -117,20 +117,6 @@ knurl_result knurl_device_claim(knurl_device *device) {
                       device->driver->uri);
 }
 
-knurl_result knurl_device_get_info(const knurl_device *device, knurl_device_info *info) {
-    if (KNURL_BAD_HANDLE(device, DEVICE) || KNURL_IS_NULL(info)) {
-        return KNURL_ERROR_ARGUMENT;
-    }
-    knurl_device_info made;
-    knurl_result result = knurl_device_ask(device, &made);
-    result = result ? result : knurl_desc_return("knurl_device_info", &made, sizeof made, info);
-    if (!result) {
-        knurl_desc_end_text(info, offsetof(knurl_device_info, name),
-                            offsetof(knurl_device_info, name) + sizeof info->name);
-    }
-    return result;
-}
-
 knurl_result knurl_device_get_status(const knurl_device *device, knurl_device_status *status) {
     if (KNURL_BAD_HANDLE(device, DEVICE) || KNURL_IS_NULL(status)) {
         return KNURL_ERROR_ARGUMENT;

@@ -73,6 +73,20 @@ knurl_result knurl_device_ask(const knurl_device *device, knurl_device_info *inf
     return result;
 }
 
+knurl_result knurl_device_get_info(const knurl_device *device, knurl_device_info *info) {
+    if (KNURL_BAD_HANDLE(device, DEVICE) || KNURL_IS_NULL(info)) {
+        return KNURL_ERROR_ARGUMENT;
+    }
+    knurl_device_info made;
+    knurl_result result = knurl_device_ask(device, &made);
+    result = result ? result : knurl_desc_return("knurl_device_info", &made, sizeof made, info);
+    if (!result) {
+        knurl_desc_end_text(info, offsetof(knurl_device_info, name),
+                            offsetof(knurl_device_info, name) + sizeof info->name);
+    }
+    return result;
+}
+
 void knurl_listings_add(knurl_listings *listings, const char *uri, const char *name, const char *reason, ...) {
     if (listings->count++ < listings->capacity) {
         knurl_device_listing *listing = &listings->to[listings->count - 1];
