@@ -28,11 +28,11 @@ internal static class UnityTutorial
         DrawGui(); // compiled now, so that it takes no time below
         Stroke(demo);
         DrawGui();
-        demo.Haptic.StopDevice();
         string[] texts = GUI.Placed.Select(pair => pair.Value as string).ToArray();
         double hertz = double.Parse(Regex.Match(texts[1], "(\\S+) Hz").Groups[1].Value);
         if (Math.Abs(hertz - 1000.0 * Speed) > 5.0 || texts[2] != "") // over ridges of 1 mm
         {
+            demo.Haptic.StopDevice();
             return 1; // frames or ticks came late
         }
         WriteGui();
@@ -42,9 +42,10 @@ internal static class UnityTutorial
         Graphics.Drawn.Clear();
         RenderPipelineManager.Begin(eye);
         Graphics.Drawn.ForEach(WriteStripes);
-        KnurlSurface surface = Object.FindObjectsOfType<KnurlSurface>().First();
+        KnurlSurface surface = Object.FindObjectsOfType<KnurlSurface>().First(each => each.name[0] == 'P'); // the touched one
         WriteInspector(surface);
         WriteInspector(surface.Grating);
+        demo.Haptic.StopDevice();
         return 0;
     }
 

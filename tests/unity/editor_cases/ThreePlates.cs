@@ -73,7 +73,7 @@ namespace Knurl.Cases
             Graphics.Drawn.Clear();
             Camera.onPreCull(null);
             Assert.AreEqual(3, Graphics.Drawn.Count);
-            Transform plate = Object.FindObjectsOfType<KnurlSurface>().Single(each => each.name == "Ridges of 1 mm").transform;
+            Transform plate = Object.FindObjectsOfType<KnurlSurface>().Single(each => each.name == "Paper, ridges of 1 mm").transform;
             Graphics.Drawing drawing = Graphics.Drawn.Single(each => each.Matrix == plate.localToWorldMatrix);
             float[] cycles = drawing.Mesh.uv.Take(3).Select(each => each.x).ToArray(); // of a triangle, half of the quad
             Assert.AreEqual(48f, cycles.Max() - cycles.Min(), 1e-3f, "ridges on 48 mm");
