@@ -118,7 +118,7 @@ EMSCRIPTEN_KEEPALIVE int web_device(double rate, double resolution, uint32_t pro
     hip.resolution = quantum = resolution;
     hip.protections = protections;
     is_real = max_force > 0.0;
-    if (is_real) { /* as sdk/src/device/inverse3/inverse3.c has them */
+    if (is_real) { /* as sdk/src/device/inverse3 has them */
         hip.clamp = 1;
         hip.resolution = fmax(resolution, 0.00001);
         hip.max_force = hip.continuous_force = max_force;

@@ -15,6 +15,8 @@ def text(path):
 
 PAGE = text("samples/web/inverse3.js")
 DRIVER = text("sdk/src/device/inverse3/inverse3.c")
+MODELS = text("sdk/src/device/inverse3/service.c")
+SERVICE = text("sdk/src/device/inverse3/service.h")
 MESSAGES = text("sdk/src/device/inverse3/message.h")
 
 
@@ -34,10 +36,11 @@ def constant(name):
 
 class Limits(unittest.TestCase):
     def test_models_have_the_same_names_forces_and_stiffness(self):
-        name, = re.findall(r'#define NAME +"(.+)"', DRIVER)
-        driver = {kind: (title.strip('"').replace("NAME", name), min(float(most), float(held)), float(stiffness))
-                  for kind, title, most, held, stiffness in re.findall(
-                      r'\{"(\w+)", (NAME|".+?"), ([\d.]+), ([\d.]+), ([\d.]+), [\d.]+\}', DRIVER)}
+        name, = re.findall(r'#define KNURL_INVERSE3_NAME +"(.+)"', SERVICE)
+        found = re.findall(r'\{"(\w+)", (KNURL_INVERSE3_NAME|".+?"), ([\d.]+), ([\d.]+), ([\d.]+), [\d.]+\}', MODELS)
+        titles = {"KNURL_INVERSE3_NAME": name}
+        driver = {kind: (titles.get(title, title.strip('"')), min(float(most), float(held)), float(stiffness))
+                  for kind, title, most, held, stiffness in found}
         page = {kind: (title, float(force), float(stiffness)) for kind, title, force, stiffness in re.findall(
             r'(\w+): \{ name: "(.+?)", force: ([\d.]+), stiffness: ([\d.]+) \}', PAGE)}
         self.assertEqual(len(driver), 3)
@@ -45,7 +48,7 @@ class Limits(unittest.TestCase):
 
     def test_a_silence_is_as_long(self):
         self.assertEqual(constant("GAP_MS"), defined("ANSWER_NS", DRIVER) / 1e6)
-        self.assertEqual(constant("HELLO_MS"), defined("HELLO_MS", DRIVER))
+        self.assertEqual(constant("HELLO_MS"), defined("KNURL_INVERSE3_HELLO_MS", SERVICE))
 
     def test_the_force_ramps_up_as_in_a_loop(self):
         self.assertEqual(constant("RAMP_S"), number(r"\.ramp_s = ([\d.]+)", text("sdk/src/loop/loop.c")))

@@ -1,6 +1,6 @@
 /* Haply's Inverse3, through its maker's service: an I/O thread sends a force and waits for the state in reply. Read
  * exchange() first. SPDX-License-Identifier: MIT */
-#include "device/inverse3/channel.h"
+#include "device/inverse3/service.h"
 
 #include "base/atomic.h"
 #include "base/format.h"
@@ -15,10 +15,8 @@
 #include <string.h>
 
 #define NATIVE_RATE 1000.0  /* Hz; the service allows more, up to 4000 */
-#define PORT        10001   /* the service's default */
 #define EVENTS_PORT 10020   /* the same for its events */
 #define ANSWER_NS   5000000 /* to wait for an answer in an exchange */
-#define HELLO_MS    500     /* to wait for a first message, and for the first answer */
 
 #define LOW_BATTERY 0.15 /* assumed: the service's threshold is not published */
 #define RADIAN      0.017453292519943295
@@ -26,23 +24,6 @@
 /* Consecutive states without the device after which it counts as lost: by then its force has been zero for a while,
  * because a device without a position counts as silent after 10 ms. */
 #define LEFT_OUT_LIMIT 15u
-
-#define NAME    "Haply Inverse3"
-#define PLUG_IN "plug it in, and its power supply as well; the Haply Hub shows it then"
-
-/* Properties by type: N that it can play in 80 % of its workspace, N that it holds for long (assumed: a third of the
- * peak, 10 N), N/m, and m of its workspace's sphere (tutorial 06). A Minverse's forces are not published: assumed, a
- * quarter of an Inverse3's. An Inverse3x is treated as an Inverse3. */
-static const struct {
-    const char *type, *name;
-    double max_force, continuous_force, max_stiffness, radius;
-} models[] = {
-    {"inverse3", NAME, 4.0, 3.3, 1000.0, 0.1},
-    {"inverse3x", "Haply Inverse3x", 4.0, 3.3, 1000.0, 0.1},
-    {"minverse", "Haply Minverse", 1.0, 0.8, 500.0, 0.04},
-};
-
-#define MODEL_COUNT (sizeof models / sizeof *models)
 
 typedef struct inverse3 {
     knurl_device base;
@@ -54,8 +35,8 @@ typedef struct inverse3 {
     char id[KNURL_INVERSE3_ID_ROOM];   /* "": the first */
     char grip[KNURL_INVERSE3_ID_ROOM]; /* the handle's; "": the first */
     char gravity[2];                   /* its compensation: "1", "0"; "": as it is */
-    size_t model;                      /* index into models[] */
-    double force_gate;                 /* as knurl_inverse3_entry */
+    const knurl_inverse3_model *model;
+    double force_gate; /* as knurl_inverse3_entry */
     /* of the I/O thread */
     uint32_t unanswered; /* messages sent but not answered; each is answered once, in order */
     uint32_t left_out;   /* consecutive states without the device */
@@ -193,58 +174,25 @@ static void disconnect(inverse3 *d) {
     }
 }
 
-/* Connects and reads the service's first message: all devices, with their configurations. */
-static knurl_result receive_first(const knurl_inverse3_service *service, int port, knurl_inverse3_channel *channel,
-                                  knurl_inverse3_state *state) {
-    char why[160] = "";
-    knurl_inverse3_message message = {NULL, 0};
-    memset(state, 0, sizeof *state);
-    const knurl_inverse3_filter all = {NULL, NULL};
-    if (!service->connect(service->user, port, all, channel, why, sizeof why)) {
-        return knurl_fail(KNURL_ERROR_DEVICE_LOST,
-                          "device 'inverse3': the Haply Inverse Service does not answer at localhost:%d (%s); start it "
-                          "(the Haply Hub does), or name its port by ?port=",
-                          port, why);
-    }
-    const int came = channel->receive(channel->self, HELLO_MS, &message);
-    if (came > 0 && knurl_inverse3_read(message.text, message.size, state)) {
-        return KNURL_OK;
-    }
-    channel->close(channel->self);
-    channel->self = NULL;
-    return knurl_fail(KNURL_ERROR_DEVICE_LOST,
-                      "device 'inverse3': the server at localhost:%d is not the Haply Inverse Service 3.5 or newer: "
-                      "expected its devices in JSON within %g s, found %s",
-                      port, 1e-3 * HELLO_MS, came > 0 ? "something else" : "nothing");
-}
-
-/* Returns MODEL_COUNT if the type is unknown. */
-static size_t find_model(const knurl_inverse3_entry *entry) {
-    size_t model = 0;
-    while (model < MODEL_COUNT && strcmp(models[model].type, entry->type) != 0) {
-        model++;
-    }
-    return model;
-}
-
 static knurl_result choose(inverse3 *d, const knurl_inverse3_state *state) {
     const knurl_inverse3_entry *first = knurl_inverse3_find(state, "");
     const knurl_inverse3_entry *entry = knurl_inverse3_find(state, d->id);
     if (!first) {
-        return knurl_fail(KNURL_ERROR_DEVICE_LOST, "device 'inverse3': its service lists no Inverse3: " PLUG_IN);
+        return knurl_fail(KNURL_ERROR_DEVICE_LOST,
+                          "device 'inverse3': its service lists no Inverse3: " KNURL_INVERSE3_PLUG_IN);
     }
     if (!entry) {
         return knurl_fail(KNURL_ERROR_DEVICE_LOST,
-                          "device 'inverse3': its service lists no Inverse3 '%s', only '%s': " PLUG_IN, d->id,
-                          first->id);
+                          "device 'inverse3': its service lists no Inverse3 '%s', only '%s': " KNURL_INVERSE3_PLUG_IN,
+                          d->id, first->id);
     }
     if (!entry->has_preset) {
         return knurl_fail(KNURL_ERROR_UNSUPPORTED,
                           "device 'inverse3': expected the Haply Inverse Service 3.5 or newer, found one that lists "
                           "no preset of its devices; update it (the Haply Hub does)");
     }
-    const size_t model = find_model(entry);
-    if (model == MODEL_COUNT) {
+    const knurl_inverse3_model *model = knurl_inverse3_find_model(entry);
+    if (!model) {
         return knurl_fail(
             KNURL_ERROR_UNSUPPORTED,
             "device 'inverse3:%s': expected an inverse3, inverse3x or minverse, found '%s': its force limit is "
@@ -255,7 +203,7 @@ static knurl_result choose(inverse3 *d, const knurl_inverse3_state *state) {
     if (d->base.max_force == 0.0) {                       /* once: other threads may read it later */
         d->model = model;
         d->force_gate = entry->force_gate;
-        d->base.max_force = models[model].max_force;
+        d->base.max_force = model->max_force;
     }
     return KNURL_OK;
 }
@@ -270,19 +218,20 @@ static knurl_result configure(inverse3 *d) {
     d->unanswered = 1;
     const char *configuration = knurl_inverse3_configuration(d->gravity);
     if (d->channel.send(d->channel.self, text, knurl_inverse3_command(text, d->id, none, configuration)) &&
-        await_answer(d, knurl_system_now_ns() + HELLO_MS * INT64_C(1000000), &message) == KNURL_LINK_POSITION) {
+        await_answer(d, knurl_system_now_ns() + KNURL_INVERSE3_HELLO_MS * INT64_C(1000000), &message) ==
+            KNURL_LINK_POSITION) {
         return KNURL_OK;
     }
     return knurl_fail(KNURL_ERROR_DEVICE_LOST,
                       "device 'inverse3:%s': its service does not answer a command within %g s; start it again", d->id,
-                      1e-3 * HELLO_MS);
+                      1e-3 * KNURL_INVERSE3_HELLO_MS);
 }
 
 static knurl_result connect(inverse3 *d) {
     knurl_inverse3_state state;
     char ignored[160];
     d->left_out = d->is_braked = 0;
-    knurl_result result = receive_first(d->service, d->port, &d->channel, &state);
+    knurl_result result = knurl_inverse3_first(d->service, d->port, &d->channel, &state);
     result = result ? result : choose(d, &state);
     result = result ? result : configure(d);
     if (!result) { /* without it all else works */
@@ -301,7 +250,7 @@ static knurl_result parse(const char *options, inverse3 *d) {
     char port[KNURL_URI_ROOM];
     char grip[KNURL_URI_ROOM];
     char gravity[KNURL_URI_ROOM];
-    double number = PORT;
+    double number = KNURL_INVERSE3_PORT;
     uint32_t is_on;
     const knurl_uri_key keys[] = {{"port", port}, {"grip", grip}, {"gravity", gravity}};
     knurl_result result = knurl_uri_parse("inverse3", options, id, keys, sizeof keys / sizeof *keys);
@@ -355,59 +304,27 @@ static void inverse3_close(knurl_device *device) {
     knurl_device_free(device);
 }
 
-/* The reason for the listing; "" if it plays forces. Once the device is open, faults are events. */
-static const char *why_not(const knurl_inverse3_entry *entry, size_t model) {
-    return model == MODEL_COUNT  ? "its type, and so its force limit, is unknown to this version"
-           : entry->is_unpowered ? "its power supply is unplugged: plug it in"
-           : entry->is_not_ready ? "its service reports that it is not ready: the Haply Hub shows why"
-                                 : "";
-}
-
-void knurl_inverse3_list(const knurl_inverse3_service *service, knurl_listings *listings) {
-    char uri[32];
-    knurl_inverse3_channel channel;
-    knurl_inverse3_state state;
-    if (receive_first(service, PORT, &channel, &state)) {
-        const char *reason = knurl_error_message() + strlen("device 'inverse3': "); /* the listing already has that */
-        knurl_listings_add(listings, "inverse3", NAME, "%s", reason);
-        return;
-    }
-    channel.close(channel.self);
-    if (!knurl_inverse3_find(&state, "")) {
-        knurl_listings_add(listings, "inverse3", NAME, "not connected: " PLUG_IN);
-    }
-    for (int i = 0; i < KNURL_INVERSE3_DEVICES; i++) {
-        const knurl_inverse3_entry *entry = &state.entries[i];
-        const size_t model = find_model(entry);
-        if (entry->id[0]) {
-            (void)snprintf(uri, sizeof uri, "inverse3:%s", entry->id);
-            knurl_listings_add(listings, uri, model < MODEL_COUNT ? models[model].name : NAME, "%s",
-                               why_not(entry, model));
-        }
-    }
-}
-
 static void inverse3_list(knurl_listings *listings) {
     char why[512];
     const knurl_inverse3_service *service = knurl_inverse3_websocket(why, sizeof why);
     if (service) {
         knurl_inverse3_list(service, listings);
     } else {
-        knurl_listings_add(listings, "inverse3", NAME, "%s", why);
+        knurl_listings_add(listings, "inverse3", KNURL_INVERSE3_NAME, "%s", why);
     }
 }
 
 static void inverse3_info(const knurl_device *device, knurl_device_info *info) {
     const inverse3 *d = (const inverse3 *)(const void *)device;
-    (void)snprintf(info->name, sizeof info->name, "%s", models[d->model].name);
+    (void)snprintf(info->name, sizeof info->name, "%s", d->model->name);
     if (d->force_gate != 0.0) {
-        (void)knurl_format(info->name, sizeof info->name, "%s (force gate %g)", models[d->model].name, d->force_gate);
+        (void)knurl_format(info->name, sizeof info->name, "%s (force gate %g)", d->model->name, d->force_gate);
     }
-    knurl_device_info_sphere(info, models[d->model].radius);
+    knurl_device_info_sphere(info, d->model->radius);
     info->resolution = 0.00001; /* data sheet of the Inverse3 */
     info->max_force = device->max_force;
-    info->max_stiffness = models[d->model].max_stiffness;
-    info->continuous_force = models[d->model].continuous_force;
+    info->max_stiffness = d->model->max_stiffness;
+    info->continuous_force = d->model->continuous_force;
     info->heat_time = 60.0; /* assumed */
     info->mass = 0.2;       /* assumed */
     info->viscous = 0.5;    /* assumed */
