@@ -70,7 +70,7 @@ static void scheduler(void *argument) {
 }
 
 static knurl_thread *start_scheduler(servo *self) {
-    return knurl_system_start_thread(scheduler, self, 65536);
+    return knurl_system_start_thread(scheduler, self, (size_t)256 * 1024);
 }
 
 static knurl_result servo_serve(knurl_device *device, uint32_t (*tick)(void *argument), void *argument) {
