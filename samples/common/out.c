@@ -70,10 +70,11 @@ static int is_stdout(const char *path, const os_file *found) {
     return strcmp(path, "-") == 0 || (os_identify_stream(stdout, &standard) == 0 && is_same(&standard, found));
 }
 
-/* 1 for paths that must not be replaced by a rename: /dev/stdout may lead to a regular file. */
+/* 1 for paths that must not be replaced by a rename: the link /dev/stdout may lead to a regular file, or nowhere.
+ * found: null if there is no such file. */
 static int is_special(const char *path, const os_file *found) {
-    return !found->is_regular || strncmp(path, "/dev/", 5) == 0 || strncmp(path, "/proc/", 6) == 0 ||
-           is_stdout(path, found);
+    return strncmp(path, "/dev/", 5) == 0 || strncmp(path, "/proc/", 6) == 0 ||
+           (found && (!found->is_regular || is_stdout(path, found)));
 }
 
 static void remove_unfinished(void) {
@@ -148,8 +149,8 @@ static void open_stream(out_file *file) {
     os_file found;
     const int exists =
         strcmp(file->path, "-") == 0 ? os_identify_stream(stdout, &found) == 0 : os_identify(file->path, &found) == 0;
-    if (exists && is_special(file->path, &found)) {
-        file->stream = is_stdout(file->path, &found) ? os_open_stdout() : os_open_output(file->path);
+    if (is_special(file->path, exists ? &found : NULL)) {
+        file->stream = exists && is_stdout(file->path, &found) ? os_open_stdout() : os_open_output(file->path);
         return;
     }
     os_before_end(remove_unfinished);

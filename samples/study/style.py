@@ -83,12 +83,12 @@ def write_png(figure, file):
 
 def save(figure, out):
     """Writes under an unpredictable name in the same folder and renames, so that `out` is never half a picture. Writes
-    directly if `out` is not a regular file (/dev/stdout, a FIFO)."""
+    directly if `out` is not a regular file (a FIFO), or /dev/stdout, a link that leads nowhere if that is closed."""
     try:
         found = os.stat(out) if os.path.exists(out) else None
         if found and (found.st_dev, found.st_ino) in INPUTS:
             raise BadInput(f"{out}: expected an output of its own, found a file that is read: it would be replaced")
-        if found and (not stat.S_ISREG(found.st_mode) or out.startswith(("/dev/", "/proc/"))):
+        if out.startswith(("/dev/", "/proc/")) or (found and not stat.S_ISREG(found.st_mode)):
             with open(out, "wb") as file:
                 write_png(figure, file)
         else:

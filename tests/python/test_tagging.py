@@ -50,6 +50,8 @@ class Tagging(unittest.TestCase):
             knurl.untag(PLATE, self.out, material=0, node=0)
         with self.assertRaises(ValueError):
             knurl.tag(PLATE, self.out, material=0, amplitude=float("nan"))
+        with self.assertRaisesRegex(ValueError, "expected the name of a file"):
+            knurl.tag(PLATE, "/dev/fd/777", material=0, stiffness=1)
         with self.assertRaises(OSError):
             knurl.tags(self.out)
         self.assertEqual(os.listdir(self.folder.name), [])

@@ -57,6 +57,23 @@ TEST(a_picture_does_not_replace_the_run_that_it_shows) {
     assert_int_equal(files_that_end(".part"), 0);
 }
 
+/* By a path that leads nowhere, as the link /dev/stdout does if standard output is closed. */
+TEST(a_picture_never_replaces_a_file_of_dev) {
+    if (!can_plot()) {
+        print_message("skipped: no matplotlib for %s\n", python);
+        skip();
+    }
+    static const char code[] = "import sys; sys.path.insert(0, sys.argv[1]); import style\n"
+                               "style.replace = lambda figure, out: print('replaced')\n"
+                               "try: style.save(None, '/dev/fd/777')\n"
+                               "except style.BadInput as error: print(error)";
+    const char *const arguments[] = {python, "-c", code, KNURL_TEST_ASSETS "/../samples/study", NULL};
+    process p = process_start(arguments, NULL);
+    process_finish(&p);
+    assert_non_null(strstr(p.out, "/dev/fd/777: expected a place to write a PNG to, found: No such file"));
+    process_free(&p);
+}
+
 static process draw_run(const char *run, const char *picture) {
     return run_tool((const char *const[]){python, drawer, run, picture, NULL});
 }

@@ -32,7 +32,7 @@ def tag(path: Path, out: Path, material: Union[str, int, None] = None, mesh: Uni
     The object is named or given by index; without one it is the file's only material. Keys that are not given stay as
     they are; None removes one. All other bytes of the file stay. out: may be path itself; it is replaced when the new
     file is complete. External buffers are not copied. Raises KnurlError for a wrong key or value, and ValueError for
-    an object that is not there or not the only one: nothing is written then.
+    an object that is not there or not the only one, or an `out` in /dev or /proc: nothing is written then.
 
     >>> knurl.tag("model.glb", "felt.glb", material="Grip", spatial_frequency=1000, amplitude=2e-4, stiffness=400)
     """
@@ -70,6 +70,8 @@ def _choose(objects: List[Tagged], choices: Tuple[Union[str, int, None], ...], p
 
 def _write(path: Path, out: Path, choices: Tuple[Union[str, int, None], ...], patch: Any) -> None:
     name = os.fspath(path)
+    if os.fspath(out).startswith(("/dev/", "/proc/")):
+        raise ValueError(f"{os.fspath(out)}: expected the name of a file: it is replaced, also if it is a link or a device")
     with open(path, "rb") as file:
         data = file.read()
     target = _choose(_list(data, name), choices, name)
