@@ -67,7 +67,8 @@ TEST(a_picture_never_replaces_a_file_of_dev) {
                                "style.replace = lambda figure, out: print('replaced')\n"
                                "try: style.save(None, '/dev/fd/777')\n"
                                "except style.BadInput as error: print(error)";
-    const char *const arguments[] = {python, "-c", code, KNURL_TEST_ASSETS "/../samples/study", NULL};
+    static const char studies[] = KNURL_TEST_ASSETS "/../samples/study";
+    const char *const arguments[] = {python, "-c", code, studies, NULL};
     process p = process_start(arguments, NULL);
     process_finish(&p);
     assert_non_null(strstr(p.out, "/dev/fd/777: expected a place to write a PNG to, found: No such file"));
