@@ -5,7 +5,6 @@
 
 #include <linux/usbdevice_fs.h>
 #include <poll.h>
-#include <pthread.h>
 #include <sched.h>
 #include <signal.h>
 #include <string.h>
@@ -56,8 +55,9 @@ static int leave_host(void) {
         return 0;
     }
     memset(&priority, 0, sizeof priority);
-    priority.sched_priority = 71;                                       /* one above the host's threads, if permitted */
-    (void)pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority); /* musl has no sched_setscheduler() */
+    priority.sched_priority = 71; /* one above the host's threads, if permitted */
+    /* by number: musl's function always fails, and pthread_setschedparam() of glibc before 2.34 needs its library */
+    (void)syscall(SYS_sched_setscheduler, 0, SCHED_FIFO, &priority);
     (void)prctl(PR_SET_NAME, "knurl-guard");
     (void)!chdir("/");
     return 1;
