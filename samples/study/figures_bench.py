@@ -54,12 +54,11 @@ def warm(ax, cases, key):
 
 
 def paced(ax, cases, key):
-    points = [(PLACES["plane"], cases["paced_plane"][key])] if "paced_plane" in cases else []
-    if "paced_mesh_100k" in cases:
-        points.append((cases["paced_mesh_100k"]["triangles"], cases["paced_mesh_100k"][key]))
-    for x, y in points:
-        ax.plot(x, y, "o", mfc="white", mec=ACCENT, mew=1.4, ms=6.5, zorder=5)
-        say(ax, number(y), x, y, "left", "center", 8.5, ACCENT, 8, 0, "data", halo=True)
+    for name, vertical, down in (("paced_plane", "center", 0), ("paced_mesh_100k", "top", -4)): # below CHAI3D's line
+        if name in cases:
+            x, y = cases[name]["triangles"] or PLACES["plane"], cases[name][key]
+            ax.plot(x, y, "o", mfc="white", mec=ACCENT, mew=1.4, ms=6.5, zorder=5)
+            say(ax, number(y), x, y, "left", vertical, 8.5, ACCENT, 8, down, "data", halo=True)
 
 
 def frame(ax, title, about):
