@@ -190,10 +190,12 @@ static int join_pro_audio(void) {
 }
 
 /* A process whose windows are hidden would run slower, and Windows 11 would ignore its timeBeginPeriod(); the process
- * keeps both from now on. One at a time: Windows 10 refuses a mask with the second, which it does not know. */
+ * keeps both from now on. A call without a bit gives that kind back to the system, so the last mask has both. Windows 10
+ * does not know the second bit, refuses that mask and keeps the first. */
 static void opt_out_of_throttling(void) {
     static const ULONG masks[] = {PROCESS_POWER_THROTTLING_EXECUTION_SPEED,
-                                  PROCESS_POWER_THROTTLING_IGNORE_TIMER_RESOLUTION};
+                                  PROCESS_POWER_THROTTLING_EXECUTION_SPEED |
+                                      PROCESS_POWER_THROTTLING_IGNORE_TIMER_RESOLUTION};
     for (size_t i = 0; i < sizeof masks / sizeof *masks; i++) {
         PROCESS_POWER_THROTTLING_STATE off = {PROCESS_POWER_THROTTLING_CURRENT_VERSION, masks[i], 0};
         (void)SetProcessInformation(GetCurrentProcess(), ProcessPowerThrottling, &off, sizeof off);
