@@ -45,15 +45,16 @@ static void make_end(void) {
     has_end = pthread_key_create(&end_of_thread, free_message) == 0;
 }
 
-/* The library is being unloaded: ends of threads must not call it any more. */
+/* At unload or exit: threads that end later must not call free_message(), and another library may get the same key. */
 __attribute__((destructor)) static void give_back(void) {
     if (has_end) {
+        has_end = 0;
         (void)pthread_key_delete(end_of_thread);
         free_message(formatted);
     }
 }
 
-/* This thread's room for a message; null without memory. */
+/* This thread's buffer for a message; null if there is no memory. */
 static char *room_for_message(void) {
     if (!formatted && pthread_once(&once, make_end) == 0 && has_end) {
         formatted = malloc(MESSAGE_SIZE);
