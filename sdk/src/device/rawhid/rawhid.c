@@ -1,8 +1,5 @@
 /* WoodenHaptics and similar devices: a microcontroller with encoders and current-controlled motors, over raw HID.
  * SPDX-License-Identifier: MIT */
-#include "device/rawhid/transport.h"
-
-#include "device/driver.h"
 #include "device/rawhid/rawhid_device.h"
 
 #include <stdio.h>

@@ -14,18 +14,19 @@
 
 typedef struct com {
     HANDLE handle;
-    int patience; /* ms: of reads, as last set */
+    int patience; /* ms: the timeout of reads that was set last; -1: unknown */
 } com;
 
-/* ReadFile() is to return at once with what has come, and to wait for a first byte only. 0: the port is gone. */
+/* Sets how long ReadFile() waits for a first byte; it returns all bytes that have come. 0: the port is gone. */
 static int set_patience(com *c, int milliseconds) {
     const DWORD wait = milliseconds > 0 ? (DWORD)milliseconds : 0;
     COMMTIMEOUTS times = {MAXDWORD, wait ? MAXDWORD : 0, wait, 0, WRITE_MS};
     if (c->patience == milliseconds) {
         return 1;
     }
-    c->patience = milliseconds;
-    return SetCommTimeouts(c->handle, &times) != 0;
+    const int is_set = SetCommTimeouts(c->handle, &times) != 0;
+    c->patience = is_set ? milliseconds : -1;
+    return is_set;
 }
 
 static int com_write(void *self, const char *text, size_t size) {
@@ -98,7 +99,7 @@ static int com_open(void *user, const char *path, knurl_serial_wire *wire, char 
     return 1;
 }
 
-/* The name of a USB device's port, if that is connected: names of others stay in the registry. */
+/* Reads the name of a USB device's port. Returns 0 if the device is not connected: its key stays in the registry. */
 static int read_name(HKEY model, const char *instance, char *name, size_t size) {
     char key[300];
     char target[300];
@@ -108,7 +109,7 @@ static int read_name(HKEY model, const char *instance, char *name, size_t size) 
            QueryDosDeviceA(name, target, sizeof target) > 0;
 }
 
-/* Windows lists each USB device that was ever connected, a key for each, in the registry. */
+/* The registry has a key for each USB device that was ever connected. */
 static int com_find(void *user, char *path, size_t size) {
     char key[80];
     char instance[256];
