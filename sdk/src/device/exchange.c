@@ -114,6 +114,11 @@ static knurl_result read_device(knurl_device *device, knurl_device_sample *sampl
     return result;
 }
 
+/* Sets the message of a failed read or write. */
+static knurl_result with_message(knurl_result result) {
+    return result ? knurl_fail_static(result, knurl_result_string(result)) : KNURL_OK;
+}
+
 knurl_result knurl_device_read(knurl_device *device, knurl_device_sample *sample) {
     KNURL_RULE(HAPTIC, device);
     if (!KNURL_IS_HANDLE(device, DEVICE) || !sample) {
@@ -121,8 +126,7 @@ knurl_result knurl_device_read(knurl_device *device, knurl_device_sample *sample
                                  "knurl_device_read: expected a device that is open and a sample, "
                                  "found null or an invalid handle");
     }
-    const knurl_result result = read_device(device, sample);
-    return result ? knurl_fail_static(result, knurl_result_string(result)) : KNURL_OK;
+    return with_message(read_device(device, sample));
 }
 
 /* Shortens a vector to `most`; one that is shortened already stays as it is. */
@@ -174,6 +178,5 @@ knurl_result knurl_device_write(knurl_device *device, const double force[3]) {
                                  "knurl_device_write: expected a device that is open and a force, "
                                  "found null or an invalid handle");
     }
-    const knurl_result result = write_device(device, force);
-    return result ? knurl_fail_static(result, knurl_result_string(result)) : KNURL_OK;
+    return with_message(write_device(device, force));
 }
