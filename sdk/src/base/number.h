@@ -1,5 +1,5 @@
-/* Parses numbers in any locale, and checks them: the ranges of all numbers that describe a device or a HIP, for values
- * from callers, drivers, files and URIs alike. SPDX-License-Identifier: MIT */
+/* Parses numbers, in every locale alike. Ranges of all numbers that describe a device or a HIP, from callers, drivers,
+ * files and URIs, and their checks. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_NUMBER_H
 #define KNURL_SRC_NUMBER_H
 

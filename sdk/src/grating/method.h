@@ -1,5 +1,5 @@
-/* A spatial method: its properties and its height function; the table of all. A new method is a number in
- * <knurl/grating.h>, a height function and a row in methods.c. SPDX-License-Identifier: MIT */
+/* Spatial methods: their properties and height functions, in one table. A new method is a number in <knurl/grating.h>,
+ * a height function and a row in methods.c. SPDX-License-Identifier: MIT */
 #ifndef KNURL_SRC_METHOD_H
 #define KNURL_SRC_METHOD_H
 

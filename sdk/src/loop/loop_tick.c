@@ -1,4 +1,4 @@
-/* A loop's tick: device -> scene or callback -> device. Read knurl_loop_tick(), at the end, first.
+/* A loop's tick: device -> scene or callback -> device. Read knurl_loop_tick() first.
  * SPDX-License-Identifier: MIT */
 #include "base/atomic.h"
 #include "base/rule.h"

@@ -24,7 +24,7 @@ typedef struct knurl_record {
     knurl_material_desc material; /* method resolved */
     const knurl_method *method;   /* its row */
     double cos_sin[2];            /* of the orientation */
-    double amplitude;             /* m: the material's, or 0 if it has no ridges: neither frequency nor amplitude */
+    double amplitude;             /* m: the material's; 0 if both of its frequencies are 0 */
     double crest;                 /* m: height of the highest crest */
     double reach;        /* m in front of the shape at which contact begins: the crest, and the shape's bulge */
     int32_t has_grating; /* 0: nothing to play, the grating stage is skipped */

@@ -47,8 +47,8 @@ typedef struct dhd {
     size_t model; /* index into models[] */
     char name[64];
     double opens;          /* 1, or -1: the sign of angles and forces that open the gripper */
-    uint32_t sets_gravity; /* 1: switch its gravity compensation... */
-    uint32_t gravity;      /* ...on (1) or off (0) */
+    uint32_t sets_gravity; /* 1: the URI switches its gravity compensation */
+    uint32_t gravity;      /* 1: on, 0: off */
     uint32_t until_status; /* exchanges; of the I/O thread */
 } dhd;
 

@@ -23,10 +23,10 @@ typedef struct knurl_inverse3_channel {
     void (*close)(void *self);
 } knurl_inverse3_channel;
 
-/* Chooses the messages that a channel receives; others are dropped, so that none of them replaces a chosen one. */
+/* Chooses the messages that a channel receives; others are dropped and do not replace a chosen one. */
 typedef struct knurl_inverse3_filter {
     int (*takes)(const void *self, const char *text, size_t size); /* null: all. [any thread, one at a time] */
-    const void *self;
+    const void *self;                                              /* must outlive the channel */
 } knurl_inverse3_filter;
 
 typedef struct knurl_inverse3_service {

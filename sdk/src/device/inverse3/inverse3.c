@@ -133,7 +133,7 @@ static int is_own_brake(const void *self, const char *text, size_t size) {
     return knurl_inverse3_read_brake(text, size, d->id) >= 0;
 }
 
-/* If no event has come, the brake stays as it was told last. */
+/* Without an event, also after their server's end, the brake's state stays the one reported last. */
 static void hear_events(inverse3 *d) {
     knurl_inverse3_message message = {NULL, 0};
     const int came = d->events.self ? d->events.receive(d->events.self, 0, &message) : 0;

@@ -20,7 +20,8 @@ typedef struct knurl_inverse3_model {
 /* A device's properties; null if its type is unknown. */
 const knurl_inverse3_model *knurl_inverse3_find_model(const knurl_inverse3_entry *entry);
 
-/* Connects to a port of this machine and reads the service's first message: all devices, with their configurations. */
+/* Connects to a port of this machine and reads the service's first message: all devices, with their configurations.
+ * On failure the channel is closed. Errors: KNURL_ERROR_DEVICE_LOST. [not the haptic thread] */
 knurl_result knurl_inverse3_first(const knurl_inverse3_service *service, int port, knurl_inverse3_channel *channel,
                                   knurl_inverse3_state *state);
 
