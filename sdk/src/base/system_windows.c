@@ -190,8 +190,8 @@ static int join_pro_audio(void) {
 }
 
 /* A process whose windows are hidden would run slower, and Windows 11 would ignore its timeBeginPeriod(); the process
- * keeps both from now on. A call without a bit gives that kind back to the system, so the last mask has both. Windows 10
- * does not know the second bit, refuses that mask and keeps the first. */
+ * keeps both from now on. A call without a bit gives that kind back to the system, so the last mask has both bits.
+ * Windows 10 does not know the second one, refuses that mask and keeps the first. */
 static void opt_out_of_throttling(void) {
     static const ULONG masks[] = {PROCESS_POWER_THROTTLING_EXECUTION_SPEED,
                                   PROCESS_POWER_THROTTLING_EXECUTION_SPEED |
