@@ -48,11 +48,18 @@ typedef struct look {
     knurl_thread *thread;
     knurl_listings found;
     knurl_device_listing room[LISTING_ROOM];
-    uint32_t is_done; /* atomic */
+    /* atomics */
+    uint32_t may_begin; /* 1: all threads have been created */
+    uint32_t is_done;
 } look;
 
+/* Loads no library before all threads have been created: glibc before 2.34 may abort if a thread is created while
+ * another one loads a library (its bug 19329). */
 static void run_look(void *argument) {
     look *l = argument;
+    while (!knurl_load_acquire(&l->may_begin)) {
+        knurl_system_sleep_until_ns(knurl_system_now_ns() + 50000);
+    }
     l->driver->list(&l->found);
     knurl_store_release(&l->is_done, 1u);
 }
@@ -98,6 +105,11 @@ uint32_t knurl_device_list(knurl_device_listing *listings, uint32_t capacity) {
     const int64_t deadline = knurl_system_now_ns() + LOOK_NS;
     for (size_t i = 0; i < DRIVER_COUNT; i++) {
         looks[i] = start_look(drivers[i]);
+    }
+    for (size_t i = 0; i < DRIVER_COUNT; i++) {
+        if (looks[i]) {
+            knurl_store_release(&looks[i]->may_begin, 1u);
+        }
     }
     for (size_t i = 0; i < DRIVER_COUNT; i++) {
         if (looks[i]) {
