@@ -20,9 +20,9 @@ typedef struct failing_call {
     void (*finish)(void);                   /* gives everything back; or null */
     void (*state)(char *text, size_t size); /* describes the state that a failed call must not change; or null */
     int is_wrong;                           /* 1: it fails with memory, too */
-    int may_leak; /* 1: it enumerates USB devices with libraries that leak blocks then, such as libusb; these are
-                   * counted
-                   */
+    int lists_usb; /* 1: it enumerates USB devices with libraries that leak blocks then, such as libusb, or in which glibc
+                    * ends the process; both are counted as the libraries'
+                    */
 } failing_call;
 
 /** Files that a library is known to leave open after each call, with memory or without; 0 unless set before
