@@ -239,8 +239,8 @@ static void run_child(const failing_call *c) {
 
 /* --- all runs, in the parent --- */
 
-/* A thread's first use of a library's thread-local variable allocates it; without memory glibc ends the process with this
- * code, as in libudev of Debian 11, through hidapi. */
+/* A thread's first use of a library's thread-local variable allocates it; without memory glibc ends the process with
+ * this code, as in libudev of Debian 11, through hidapi. */
 #define ENDED_BY_GLIBC 127
 
 /* A crash ends a child; the next child continues after it. */

@@ -20,8 +20,8 @@ typedef struct failing_call {
     void (*finish)(void);                   /* gives everything back; or null */
     void (*state)(char *text, size_t size); /* describes the state that a failed call must not change; or null */
     int is_wrong;                           /* 1: it fails with memory, too */
-    int lists_usb; /* 1: it enumerates USB devices with libraries that leak blocks then, such as libusb, or in which glibc
-                    * ends the process; both are counted as the libraries'
+    int lists_usb; /* 1: it enumerates USB devices with libraries that leak blocks then, such as libusb, or in which
+                    * glibc ends the process; both are counted as the libraries'
                     */
 } failing_call;
 

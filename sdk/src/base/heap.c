@@ -19,13 +19,13 @@ struct knurl_block {
     size_t size; /* including this header */
 };
 
-/* C99 has no aligned allocation: the pointer from malloc() is stored just before the aligned block. */
+/* Zeroed. C99 has no aligned allocation: the pointer from calloc() is stored just before the aligned block. */
 static void *default_allocate(size_t size, size_t alignment, void *user) {
     (void)user;
     if (size > SIZE_MAX - alignment - sizeof(void *)) {
         return NULL;
     }
-    char *raw = malloc(size + alignment + sizeof raw);
+    char *raw = calloc(1, size + alignment + sizeof raw); /* knows which pages are zero already */
     if (!raw) {
         return NULL;
     }
@@ -124,6 +124,7 @@ void *knurl_heap_alloc(knurl_heap *heap, uint64_t count, size_t size) {
     const size_t bytes = count > limit ? 0 : ALIGNMENT + (size_t)count * size;
     enter(heap);
     knurl_block *block = take_spare(heap, bytes);
+    const int is_zeroed = !block && heap->allocator.allocate == default_allocate;
     block = block ? block : make_block(heap, bytes);
     if (block) {
         link_block(heap, block);
@@ -134,7 +135,9 @@ void *knurl_heap_alloc(knurl_heap *heap, uint64_t count, size_t size) {
                    (unsigned long long)size);
         return NULL;
     }
-    memset((char *)block + ALIGNMENT, 0, bytes - ALIGNMENT);
+    if (!is_zeroed) {
+        memset((char *)block + ALIGNMENT, 0, bytes - ALIGNMENT);
+    }
     return (char *)block + ALIGNMENT;
 }
 

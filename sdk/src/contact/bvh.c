@@ -45,10 +45,12 @@ static double box_area(const knurl_box *b) {
     return x < 0.0 ? 0.0 : x * y + y * z + z * x;
 }
 
-static inline uint32_t bin_of(const knurl_box *b, const split *s) {
+/* A box's place among the bins; its whole part is the bin. */
+static inline float place_in_bins(const knurl_box *b, const split *s) {
     const float middle = 0.5f * b->min[s->axis] + 0.5f * b->max[s->axis];
-    const float bin = (middle - s->low) * s->scale;
-    return !(bin > 0.0f) ? 0 : bin >= (float)(BINS - 1) ? BINS - 1 : (uint32_t)bin; /* NaN, from huge boxes, is 0 */
+    const float place = (middle - s->low) * s->scale;
+    const float low = place > 0.0f ? place : 0.0f; /* NaN, from huge boxes, is 0 */
+    return low < (float)(BINS - 1) ? low : (float)(BINS - 1);
 }
 
 /* Computes a range's bounds, and a split along the widest axis of its centres; choose_bin() sets its bin. */
@@ -76,34 +78,83 @@ static split measure(const knurl_box *boxes, const range *r, knurl_box *bounds) 
     return s;
 }
 
-/* Picks the cheapest of the 15 splits between bins. Leaves each box's bin in it, for partition(). */
-static void choose_bin(knurl_box *boxes, const range *r, split *s) {
+/* Boxes around the items of each bin. */
+typedef struct bins {
     knurl_box bounds[BINS];
-    uint32_t counts[BINS] = {0};
-    double right_area[BINS];
+    uint32_t counts[BINS];
+} bins;
+
+static void clear_bins(bins *b) {
     for (int i = 0; i < BINS; i++) {
-        bounds[i] = empty_box;
+        b->bounds[i] = empty_box;
+        b->counts[i] = 0;
     }
-    for (uint32_t i = r->begin; i < r->end; i++) {
-        const uint32_t bin = bin_of(&boxes[i], s);
-        box_add(&bounds[bin], &boxes[i]);
-        boxes[i].min[3] = (float)bin;
-        counts[bin]++;
+}
+
+/* Leaves the box's place among the bins in it, for partition(). */
+static inline void add_to_bin(knurl_box *b, const split *s, bins *into) {
+    const float place = place_in_bins(b, s);
+    const uint32_t bin = (uint32_t)place;
+    box_add(&into->bounds[bin], b);
+    into->counts[bin]++;
+    b->min[3] = place;
+}
+
+/* Neighbours in the list are often of one bin, and each would wait for the sum before it. Of long lists, each step
+ * takes boxes from STREAMS distant places, with bins of their own: a fifth less time. */
+#define STREAMS      4
+#define STREAM_LEAST 64
+
+static void fill_bins(knurl_box *boxes, const range *r, const split *s, bins *sum) {
+    const split constant = *s; /* `boxes` might alias *s */
+    const uint32_t count = r->end - r->begin, length = count / STREAMS > STREAM_LEAST ? count / STREAMS : 0;
+    bins apart[STREAMS];
+    clear_bins(sum);
+    for (uint32_t k = 0; k < STREAMS && length > 0; k++) {
+        clear_bins(&apart[k]);
     }
+    for (uint32_t i = r->begin; i < r->begin + length; i++) {
+        for (uint32_t k = 0; k < STREAMS; k++) {
+            add_to_bin(&boxes[i + k * length], &constant, &apart[k]);
+        }
+    }
+    for (uint32_t i = r->begin + STREAMS * length; i < r->end; i++) {
+        add_to_bin(&boxes[i], &constant, sum);
+    }
+    for (uint32_t k = 0; k < STREAMS && length > 0; k++) {
+        for (int i = 0; i < BINS; i++) {
+            box_add(&sum->bounds[i], &apart[k].bounds[i]);
+            sum->counts[i] += apart[k].counts[i];
+        }
+    }
+}
+
+/* Picks the cheapest of the 15 splits between bins. */
+static void choose_bin(knurl_box *boxes, const range *r, split *s) {
+    bins b;
+    double right_area[BINS];
+    fill_bins(boxes, r, s, &b);
     knurl_box sweep = empty_box;
+    double area = 0.0;
     for (int i = BINS - 1; i > 0; i--) {
-        box_add(&sweep, &bounds[i]);
-        right_area[i] = box_area(&sweep);
+        if (b.counts[i] > 0) {
+            box_add(&sweep, &b.bounds[i]);
+            area = box_area(&sweep);
+        }
+        right_area[i] = area;
     }
     sweep = empty_box;
     uint32_t left = 0;
     double best = 1e300;
     for (uint32_t i = 1; i < BINS; i++) {
-        box_add(&sweep, &bounds[i - 1]);
-        left += counts[i - 1];
+        if (b.counts[i - 1] == 0) { /* the same split as the one before */
+            continue;
+        }
+        box_add(&sweep, &b.bounds[i - 1]);
+        left += b.counts[i - 1];
         const uint32_t right = r->end - r->begin - left;
         const double cost = box_area(&sweep) * left + right_area[i] * right;
-        if (left > 0 && right > 0 && cost < best) {
+        if (right > 0 && cost < best) {
             best = cost;
             s->bin = i;
         }

@@ -31,6 +31,19 @@ static inline knurl_float4 knurl_float4_max(knurl_float4 a, knurl_float4 b) {
 #endif
 }
 
+static inline knurl_float4 knurl_float4_all(float a) {
+    return (knurl_float4){a, a, a, a};
+}
+
+/* Bit k: a comparison is true of the numbers k. */
+static inline uint32_t knurl_mask4_bits(knurl_mask4 mask) {
+#if defined(__SSE2__)
+    return (uint32_t)_mm_movemask_ps((__m128)mask);
+#else
+    return ((uint32_t)mask[0] & 1u) | ((uint32_t)mask[1] & 2u) | ((uint32_t)mask[2] & 4u) | ((uint32_t)mask[3] & 8u);
+#endif
+}
+
 /* 1 if a comparison is true in x, y or z. */
 static inline int knurl_mask4_any(knurl_mask4 mask) {
 #if defined(__SSE2__)

@@ -16,6 +16,10 @@
 #define KNURL_FLIPPED           0x40000000u /* the triangle beyond this edge has the opposite winding */
 #define KNURL_NON_MANIFOLD      0x80000000u /* of the vertex: swinging misses some triangles (knurl_vertex_corners) */
 
+/* Maximum triangles per leaf. Compared with 4: 7 bytes per triangle less (40 instead of 46) and a tenth less to build;
+ * queries that need the hierarchy (a HIP in front, within reach) take a tenth longer. */
+#define KNURL_MESH_LEAF 8
+
 /* A non-manifold vertex (a bow tie, or more than two sheets at an edge): its triangles are not all connected by edges
  * that two of them share, so its corners are listed. */
 typedef struct knurl_vertex_corners {

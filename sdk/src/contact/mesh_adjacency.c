@@ -7,81 +7,75 @@
 
 #include <string.h>
 
+/* The last edge that was found to end at a vertex, and the first corner opposite it. */
+typedef struct edge_end {
+    uint32_t from; /* 1 + its other vertex; 0: none */
+    uint32_t corner;
+} edge_end;
+
 typedef struct adjacency {
     knurl_heap *heap;
     knurl_mesh *mesh;
     const uint32_t *welded;
     uint32_t welded_count;
     uint32_t *starts; /* one per welded vertex, plus two */
+    edge_end *ends;   /* one per welded vertex */
 } adjacency;
 
 static uint32_t vertex_of(const adjacency *adj, uint32_t corner) {
     return adj->welded[corner_slot(corner)];
 }
 
-/* The edge opposite a corner, by its ends. */
-typedef struct edge {
-    uint32_t low, high;
-} edge;
-
-static inline edge edge_of(const adjacency *adj, uint32_t corner) {
-    const uint32_t a = vertex_of(adj, corner_next(corner));
-    const uint32_t b = vertex_of(adj, corner_last(corner));
-    return a < b ? (edge){a, b} : (edge){b, a};
-}
-
-static uint32_t lower_end(const adjacency *adj, uint32_t corner) {
-    return edge_of(adj, corner).low;
-}
-
-static uint32_t upper_end(const adjacency *adj, uint32_t corner) {
-    return edge_of(adj, corner).high;
-}
-
-/* One pass of a counting sort of corners by `key`. from: null for all corners in order. */
-static void sort_by(const adjacency *adj, uint32_t (*key)(const adjacency *, uint32_t), const uint32_t *from,
-                    uint32_t *to) {
-    const size_t count = 3 * (size_t)adj->mesh->triangle_count;
-    memset(adj->starts, 0, ((size_t)adj->welded_count + 2) * sizeof *adj->starts);
-    for (uint32_t t = 0; t < adj->mesh->triangle_count; t++) {
-        for (uint32_t k = 0; k < 3; k++) {
-            adj->starts[key(adj, 4 * t + k) + 2]++;
-        }
+/* Sorts corners by vertex (a counting sort): afterwards those of vertex v are from starts[v] to starts[v + 1]. */
+static void sort_by_vertex(const adjacency *adj, uint32_t *to) {
+    for (size_t i = 0; i < 3 * (size_t)adj->mesh->triangle_count; i++) {
+        adj->starts[adj->welded[i] + 2]++;
     }
     for (uint32_t p = 0; p < adj->welded_count; p++) {
         adj->starts[p + 2] += adj->starts[p + 1];
     }
-    for (size_t i = 0; i < count; i++) {
-        const uint32_t corner = from ? from[i] : (uint32_t)(4 * (i / 3) + i % 3);
-        to[adj->starts[key(adj, corner) + 1]++] = corner;
+    for (uint32_t t = 0; t < adj->mesh->triangle_count; t++) {
+        for (uint32_t k = 0; k < 3; k++) {
+            to[adj->starts[adj->welded[3 * (size_t)t + k] + 1]++] = 4 * t + k;
+        }
     }
 }
 
-/* Links the corners opposite one edge. */
-static void link_edge(const adjacency *adj, const uint32_t *corners, size_t count) {
-    if (count == 2) {
-        const uint32_t a = corners[0];
-        const uint32_t b = corners[1];
-        const uint32_t flipped = vertex_of(adj, corner_next(a)) == vertex_of(adj, corner_next(b)) ? KNURL_FLIPPED : 0;
-        adj->mesh->opposite[corner_slot(a)] = b | flipped;
-        adj->mesh->opposite[corner_slot(b)] = a | flipped;
+/* Links a corner with the one found before opposite the same edge, if any. `last` remembers the first. */
+static void link_corner(const adjacency *adj, uint32_t from, edge_end *last, uint32_t corner) {
+    uint32_t *opposite = adj->mesh->opposite;
+    uint32_t *across = &opposite[corner_slot(corner)];
+    if (last->from != from + 1) {
+        *last = (edge_end){from + 1, corner};
+        *across = KNURL_BOUNDARY;
         return;
     }
-    for (size_t i = 0; i < count; i++) {
-        adj->mesh->opposite[corner_slot(corners[i])] = count == 1 ? KNURL_BOUNDARY : KNURL_NON_MANIFOLD_EDGE;
+    const uint32_t first = last->corner;
+    uint32_t *back = &opposite[corner_slot(first)];
+    if (*back == KNURL_BOUNDARY) {
+        const int is_flipped = vertex_of(adj, corner_next(first)) == vertex_of(adj, corner_next(corner));
+        *across = first | (is_flipped ? KNURL_FLIPPED : 0);
+        *back = corner | (is_flipped ? KNURL_FLIPPED : 0);
+        return;
     }
+    if (*back != KNURL_NON_MANIFOLD_EDGE) {
+        opposite[corner_slot(*back & KNURL_CORNER_MASK)] = *back = KNURL_NON_MANIFOLD_EDGE;
+    }
+    *across = KNURL_NON_MANIFOLD_EDGE;
 }
 
-static void link_edges(const adjacency *adj, const uint32_t *sorted) {
-    const size_t count = 3 * (size_t)adj->mesh->triangle_count;
-    size_t first = 0;
-    edge now = edge_of(adj, sorted[0]);
-    for (size_t i = 1; i <= count; i++) {
-        const edge next = edge_of(adj, sorted[i < count ? i : first]);
-        if (i == count || next.low != now.low || next.high != now.high) {
-            link_edge(adj, &sorted[first], i - first);
-            first = i;
-            now = next;
+/* Takes the edges from each vertex to later ones. */
+static void link_edges(const adjacency *adj, const uint32_t *by_vertex) {
+    for (uint32_t p = 0; p < adj->welded_count; p++) {
+        for (uint32_t i = adj->starts[p]; i < adj->starts[p + 1]; i++) {
+            const uint32_t next = corner_next(by_vertex[i]), last = corner_last(by_vertex[i]);
+            const uint32_t v = vertex_of(adj, next), w = vertex_of(adj, last);
+            if (v > p) {
+                link_corner(adj, p, &adj->ends[v], last);
+            }
+            if (w > p) {
+                link_corner(adj, p, &adj->ends[w], next);
+            }
         }
     }
 }
@@ -165,27 +159,25 @@ static void fill_lists(const adjacency *adj, const uint32_t *by_vertex) {
 
 knurl_result knurl_mesh_link(knurl_heap *heap, knurl_mesh *mesh, const uint32_t *welded, uint32_t welded_count) {
     const size_t corners = 3 * (size_t)mesh->triangle_count;
-    adjacency adj = {heap, mesh, welded, welded_count, NULL};
+    adjacency adj = {heap, mesh, welded, welded_count, NULL, NULL};
     adj.starts = knurl_heap_alloc(heap, (uint64_t)welded_count + 2, sizeof *adj.starts);
-    uint32_t *half_sorted = knurl_heap_alloc(heap, corners, sizeof *half_sorted);
-    uint32_t *sorted = knurl_heap_alloc(heap, corners, sizeof *sorted);
+    adj.ends = knurl_heap_alloc(heap, welded_count, sizeof *adj.ends);
+    uint32_t *by_vertex = knurl_heap_alloc(heap, corners, sizeof *by_vertex);
     mesh->opposite = knurl_heap_alloc(heap, corners, sizeof *mesh->opposite);
-    knurl_result result = adj.starts && half_sorted && sorted && mesh->opposite ? KNURL_OK : KNURL_ERROR_MEMORY;
+    knurl_result result = adj.starts && adj.ends && by_vertex && mesh->opposite ? KNURL_OK : KNURL_ERROR_MEMORY;
     if (!result) {
-        sort_by(&adj, upper_end, NULL, half_sorted);
-        sort_by(&adj, lower_end, half_sorted, sorted);
-        link_edges(&adj, sorted);
-        sort_by(&adj, vertex_of, NULL, sorted);
-        const size_t marked = mark_non_manifold(&adj, sorted);
+        sort_by_vertex(&adj, by_vertex);
+        link_edges(&adj, by_vertex);
+        const size_t marked = mark_non_manifold(&adj, by_vertex);
         if (marked > 0) {
             result = make_lists(&adj, marked);
         }
         if (!result && marked > 0) {
-            fill_lists(&adj, sorted);
+            fill_lists(&adj, by_vertex);
         }
     }
     knurl_heap_free(heap, adj.starts);
-    knurl_heap_free(heap, half_sorted);
-    knurl_heap_free(heap, sorted);
+    knurl_heap_free(heap, adj.ends);
+    knurl_heap_free(heap, by_vertex);
     return result;
 }

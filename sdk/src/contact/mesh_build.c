@@ -15,10 +15,6 @@
 
 #include <string.h>
 
-/* Maximum triangles per leaf. Compared with 4: 7 bytes per triangle less (40 instead of 46) and a tenth less to build;
- * queries that need the hierarchy (a HIP in front, within reach) take a tenth longer. */
-#define LEAF_SIZE 8
-
 /* Working data of a build. Arrays hold three entries per triangle, except `welds`. */
 typedef struct draft {
     knurl_heap *heap;
@@ -53,7 +49,7 @@ static double area_of(const draft *d, const uint32_t corners[3]) {
     vec3_sub(p[2], p[1], edges[2]);
     vec3_cross(edges[0], edges[1], normal);
     const double longest =
-        fmax(fmax(vec3_dot(edges[0], edges[0]), vec3_dot(edges[1], edges[1])), vec3_dot(edges[2], edges[2]));
+        knurl_max(knurl_max(vec3_dot(edges[0], edges[0]), vec3_dot(edges[1], edges[1])), vec3_dot(edges[2], edges[2]));
     const int is_felt =
         longest >= KNURL_EXTENT_MIN * KNURL_EXTENT_MIN && vec3_dot(normal, normal) > 1e-12 * longest * longest;
     return is_felt ? vec3_length(normal) : 0.0;
@@ -175,7 +171,7 @@ static knurl_result build_hierarchy(draft *d) {
     knurl_result result = boxes && order && sorted ? KNURL_OK : KNURL_ERROR_MEMORY;
     if (!result) {
         bound(d, boxes);
-        result = knurl_bvh_build(d->heap, boxes, count, LEAF_SIZE, order, &mesh->nodes, &mesh->node_count);
+        result = knurl_bvh_build(d->heap, boxes, count, KNURL_MESH_LEAF, order, &mesh->nodes, &mesh->node_count);
     }
     for (uint32_t i = 0; !result && i < count; i++) {
         memcpy(&sorted[3 * (size_t)i], &d->corners[3 * (size_t)order[i]], 3 * sizeof *sorted);

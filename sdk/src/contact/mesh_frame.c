@@ -77,7 +77,7 @@ int knurl_mesh_uv_frame(const knurl_mesh *mesh, uint32_t triangle, double du[3],
         du[axis] = (e.v2 * e.edge1[axis] - e.v1 * e.edge2[axis]) / e.det;
         dv[axis] = (e.u1 * e.edge2[axis] - e.u2 * e.edge1[axis]) / e.det;
     }
-    return vec3_length(du) > 0.0 && vec3_length(dv) > 0.0;
+    return vec3_dot(du, du) > 0.0 && vec3_dot(dv, dv) > 0.0;
 }
 
 /* Direction in which u grows, of any length: dP/du without the division. */

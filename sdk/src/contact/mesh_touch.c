@@ -7,15 +7,14 @@
 #include "contact/closest_point.h"
 #include "contact/mesh_search.h"
 
-/* Triangles of a leaf that are tested at a time. */
-#define LEAF_MAX 8
+#define GROUPS (KNURL_MESH_LEAF / 4) /* of a leaf's triangles */
 
-/* A triangle with its bounding planes: its own and one through each edge, facing outwards; unit normals. */
+/* A triangle with its bounding planes: its own and one through each edge, facing outwards. */
 typedef struct bounded {
-    knurl_search_box box; /* and the seam around it */
     double corners[3][3];
     double normal[3];
     double sides[3][3]; /* sides[k]: at the edge opposite corner k */
+    double margins[4];  /* the seam, times the lengths of the sides and of the normal */
     uint32_t triangle;
     int has_rim;
 } bounded;
@@ -27,29 +26,23 @@ static int has_rim(const knurl_mesh *mesh, uint32_t triangle) {
 }
 
 static void bound(const knurl_mesh *mesh, uint32_t triangle, bounded *b) {
-    knurl_triangle t;
-    knurl_mesh_triangle(mesh, triangle, &t);
-    double low[3], high[3];
+    double edges[3][3]; /* edges[k]: opposite corner k */
     b->triangle = triangle;
     b->has_rim = has_rim(mesh, triangle);
-    for (int axis = 0; axis < 3; axis++) {
-        const double p = t.corners[0][axis], q = t.corners[1][axis], r = t.corners[2][axis];
-        low[axis] = knurl_min(p, knurl_min(q, r)) - mesh->facts.seam;
-        high[axis] = knurl_max(p, knurl_max(q, r)) + mesh->facts.seam;
-    }
-    knurl_search_box_set(low, high, &b->box);
-    vec3_copy(t.normal, b->normal);
+    knurl_mesh_corners(mesh, triangle, b->corners);
     for (int k = 0; k < 3; k++) {
-        double edge[3];
-        vec3_copy(t.corners[k], b->corners[k]);
-        vec3_sub(t.corners[(k + 2) % 3], t.corners[(k + 1) % 3], edge);
-        vec3_cross(edge, t.normal, b->sides[k]);
-        (void)vec3_normalise(b->sides[k]);
+        vec3_sub(b->corners[(k + 2) % 3], b->corners[(k + 1) % 3], edges[k]);
     }
+    vec3_cross(edges[1], edges[2], b->normal);
+    for (int k = 0; k < 3; k++) {
+        vec3_cross(edges[k], b->normal, b->sides[k]);
+        b->margins[k] = mesh->facts.seam * vec3_length(b->sides[k]);
+    }
+    b->margins[3] = mesh->facts.seam * vec3_length(b->normal);
 }
 
 /* 1 if all of `corners`, except the shared one (3: no corner is shared), are beyond one plane of the triangle. */
-static int is_beyond(const bounded *b, const double corners[3][3], int shared, double seam) {
+static int is_beyond(const bounded *b, const double corners[3][3], int shared) {
     int above = 1, below = 1, beside[3] = {1, 1, 1};
     for (int i = 0; i < 3; i++) {
         double to[3];
@@ -58,12 +51,13 @@ static int is_beyond(const bounded *b, const double corners[3][3], int shared, d
         }
         vec3_sub(corners[i], b->corners[0], to);
         const double height = vec3_dot(to, b->normal);
-        above &= height > seam;
-        below &= height < -seam;
-        beside[1] &= vec3_dot(to, b->sides[1]) > seam; /* the first corner is on the edges opposite the others */
-        beside[2] &= vec3_dot(to, b->sides[2]) > seam;
+        above &= height > b->margins[3];
+        below &= height < -b->margins[3];
+        beside[1] &=
+            vec3_dot(to, b->sides[1]) > b->margins[1]; /* the first corner is on the edges opposite the others */
+        beside[2] &= vec3_dot(to, b->sides[2]) > b->margins[2];
         vec3_sub(corners[i], b->corners[1], to);
-        beside[0] &= vec3_dot(to, b->sides[0]) > seam;
+        beside[0] &= vec3_dot(to, b->sides[0]) > b->margins[0];
     }
     return above | below | beside[0] | beside[1] | beside[2];
 }
@@ -116,16 +110,6 @@ static int edge_touches(const knurl_mesh *mesh, const double from[3], const doub
     return closest.distance2 <= seam2;
 }
 
-/* 1 if two triangles have a vertex in common. */
-static int share_vertex(const knurl_mesh *mesh, uint32_t a, uint32_t b) {
-    const uint32_t *v = &mesh->triangles[3 * (size_t)a], *w = &mesh->triangles[3 * (size_t)b];
-    int any = 0;
-    for (int i = 0; i < 3; i++) {
-        any |= (v[i] == w[0]) | (v[i] == w[1]) | (v[i] == w[2]);
-    }
-    return any;
-}
-
 /* Counts the pairs of corners at the same position; shared: the corners of one such pair. */
 static int shared_corners(const double a[3][3], const double b[3][3], int shared[2]) {
     int count = 0;
@@ -159,46 +143,122 @@ static int touch(const knurl_mesh *mesh, const bounded *a, uint32_t triangle) {
     bounded b;
     double corners[3][3];
     int shared[2];
-    const int in_closed_fans = !a->has_rim && !has_rim(mesh, triangle);
-    if (in_closed_fans && share_vertex(mesh, a->triangle, triangle)) { /* most pairs: the test below, but faster */
-        return 0;
-    }
     knurl_mesh_corners(mesh, triangle, corners);
-    const int count = shared_corners((const double (*)[3])a->corners, (const double (*)[3])corners, shared);
-    if (count > 1 || (count == 1 && in_closed_fans)) { /* share an edge or a closed fan */
+    if (is_beyond(a, (const double (*)[3])corners, 3)) { /* and so share no corner */
         return 0;
     }
-    const int beyond = is_beyond(a, (const double (*)[3])corners, shared[1], mesh->facts.seam);
-    if (count == 0 && beyond) {
+    const int count = shared_corners((const double (*)[3])a->corners, (const double (*)[3])corners, shared);
+    if (count > 1 || (count == 1 && !a->has_rim && !has_rim(mesh, triangle))) { /* share an edge or a closed fan */
         return 0;
     }
     bound(mesh, triangle, &b);
     if (count == 0) {
-        return !is_beyond(&b, (const double (*)[3])a->corners, 3, mesh->facts.seam) &&
+        return !is_beyond(&b, (const double (*)[3])a->corners, 3) &&
                (edges_touch(mesh, a, 3, &b) || edges_touch(mesh, &b, 3, a));
     }
-    return (!beyond && edges_touch(mesh, &b, shared[1], a)) ||
-           (!is_beyond(&b, (const double (*)[3])a->corners, shared[0], mesh->facts.seam) &&
-            edges_touch(mesh, a, shared[0], &b));
+    return (!is_beyond(a, (const double (*)[3])corners, shared[1]) && edges_touch(mesh, &b, shared[1], a)) ||
+           (!is_beyond(&b, (const double (*)[3])a->corners, shared[0]) && edges_touch(mesh, a, shared[0], &b));
 }
 
-/* Counts the touching pairs of `own` and a leaf's triangles with higher numbers. box: around all of `own`. */
-static uint32_t count_pairs(const knurl_mesh *mesh, const bounded *own, uint32_t count, const knurl_search_box *box,
-                            const knurl_bvh_node *leaf) {
+/* Triangles of a leaf, side by side, so that all are compared with another triangle at once. Bit k: triangle k. */
+typedef struct leaf {
+    uint32_t first, count;
+    knurl_search_box box; /* around all, and the seam */
+    bounded planes[KNURL_MESH_LEAF];
+    knurl_float4 low[3][GROUPS], high[3][GROUPS]; /* the box of each, and the seam; none after the last */
+    knurl_mask4 vertices[3][GROUPS];
+    uint32_t closed; /* bits of those without a rim */
+} leaf;
+
+static void add_to_leaf(const knurl_mesh *mesh, uint32_t k, leaf *l) {
+    const uint32_t triangle = l->first + k;
+    bounded *b = &l->planes[k];
+    knurl_search_box box;
+    double low[3], high[3];
+    bound(mesh, triangle, b);
+    for (int axis = 0; axis < 3; axis++) {
+        const double p = b->corners[0][axis], q = b->corners[1][axis], r = b->corners[2][axis];
+        low[axis] = knurl_min(p, knurl_min(q, r)) - mesh->facts.seam;
+        high[axis] = knurl_max(p, knurl_max(q, r)) + mesh->facts.seam;
+    }
+    knurl_search_box_set(low, high, &box);
+    for (int i = 0; i < 3; i++) {
+        l->low[i][k / 4][k % 4] = box.low[i];
+        l->high[i][k / 4][k % 4] = box.high[i];
+        l->vertices[i][k / 4][k % 4] = (int32_t)mesh->triangles[3 * (size_t)triangle + (size_t)i];
+    }
+    l->closed |= (uint32_t)!b->has_rim << k;
+}
+
+static void read_leaf(const knurl_mesh *mesh, const knurl_bvh_node *node, leaf *l) {
+    static const knurl_float4 none = {HUGE_VALF, HUGE_VALF, HUGE_VALF, HUGE_VALF};
+    double low[3], high[3];
+    for (int axis = 0; axis < 3; axis++) {
+        low[axis] = (double)node->min[axis] - mesh->facts.seam;
+        high[axis] = (double)node->max[axis] + mesh->facts.seam;
+        for (int group = 0; group < GROUPS; group++) {
+            l->low[axis][group] = none;
+        }
+    }
+    knurl_search_box_set(low, high, &l->box);
+    l->first = node->first;
+    l->count = node->count;
+    l->closed = 0;
+    for (uint32_t k = 0; k < l->count; k++) {
+        add_to_leaf(mesh, k, l);
+    }
+}
+
+/* Bits of the leaf's triangles whose boxes overlap one from low to high. */
+static uint32_t find_overlaps(const leaf *l, knurl_float4 low, knurl_float4 high) {
+    uint32_t bits = 0;
+    for (int group = 0; group < GROUPS; group++) {
+        knurl_mask4 all = {-1, -1, -1, -1};
+        for (int axis = 0; axis < 3; axis++) {
+            all &= (l->low[axis][group] <= knurl_float4_all(high[axis])) &
+                   (l->high[axis][group] >= knurl_float4_all(low[axis]));
+        }
+        bits |= knurl_mask4_bits(all) << 4 * group;
+    }
+    return bits;
+}
+
+/* Bits of the leaf's triangles that have one of three vertices. */
+static uint32_t find_sharing(const leaf *l, const uint32_t vertices[3]) {
+    uint32_t bits = 0;
+    for (int group = 0; group < GROUPS; group++) {
+        knurl_mask4 any = {0, 0, 0, 0};
+        for (int i = 0; i < 3; i++) {
+            const int32_t v = (int32_t)vertices[i];
+            const knurl_mask4 vertex = {v, v, v, v};
+            any |= (l->vertices[0][group] == vertex) | (l->vertices[1][group] == vertex) |
+                   (l->vertices[2][group] == vertex);
+        }
+        bits |= knurl_mask4_bits(any) << 4 * group;
+    }
+    return bits;
+}
+
+/* Counts the touching pairs of `own` and a leaf's triangles with higher numbers. Most pairs with overlapping boxes
+ * share a vertex in closed fans, and do not touch elsewhere. */
+static uint32_t count_pairs(const knurl_mesh *mesh, const leaf *own, const knurl_bvh_node *node) {
     uint32_t pairs = 0;
-    for (uint32_t i = leaf->first; i < leaf->first + leaf->count; i++) {
+    for (uint32_t i = node->first; i < node->first + node->count; i++) {
         const uint32_t *v = &mesh->triangles[3 * (size_t)i];
         const knurl_float4 a = knurl_float4_vertex(mesh, v[0]), b = knurl_float4_vertex(mesh, v[1]);
         const knurl_float4 c = knurl_float4_vertex(mesh, v[2]);
         const knurl_float4 low = knurl_float4_min(a, knurl_float4_min(b, c));
         const knurl_float4 high = knurl_float4_max(a, knurl_float4_max(b, c));
-        if (knurl_mask4_any((box->low > high) | (box->high < low))) {
+        if (knurl_mask4_any((own->box.low > high) | (own->box.high < low))) {
             continue;
         }
-        for (uint32_t k = 0; k < count && own[k].triangle < i; k++) {
-            if (!knurl_mask4_any((own[k].box.low > high) | (own[k].box.high < low))) {
-                pairs += (uint32_t)touch(mesh, &own[k], i);
-            }
+        uint32_t bits = find_overlaps(own, low, high);
+        bits &= i - own->first < own->count ? (1U << (i - own->first)) - 1U : bits;
+        if (bits && !has_rim(mesh, i)) {
+            bits &= ~(find_sharing(own, v) & own->closed);
+        }
+        for (; bits; bits &= bits - 1U) {
+            pairs += (uint32_t)touch(mesh, &own->planes[__builtin_ctz(bits)], i);
         }
     }
     return pairs;
@@ -212,43 +272,29 @@ static uint32_t count_pairs(const knurl_mesh *mesh, const bounded *own, uint32_t
 #define PAIRS_A_TRIANGLE 4
 
 /* Counts the touching pairs of a leaf and all leaves near it, until *steps runs out. */
-static uint32_t count_of_leaf(const knurl_mesh *mesh, const knurl_bvh_node *leaf, uint64_t *steps) {
+static uint32_t count_of_leaf(const knurl_mesh *mesh, const knurl_bvh_node *from, uint64_t *steps) {
     uint32_t stack[KNURL_BVH_DEPTH_MAX];
     uint32_t top = 0;
     uint32_t pairs = 0;
-    bounded own[LEAF_MAX];
-    double low[3], high[3];
-    knurl_search_box box;
-    for (int axis = 0; axis < 3; axis++) {
-        low[axis] = (double)leaf->min[axis] - mesh->facts.seam;
-        high[axis] = (double)leaf->max[axis] + mesh->facts.seam;
-    }
-    knurl_search_box_set(low, high, &box);
-    for (uint32_t first = leaf->first; first < leaf->first + leaf->count; first += LEAF_MAX) {
-        const uint32_t left = leaf->first + leaf->count - first;
-        const uint32_t count = left < LEAF_MAX ? left : LEAF_MAX;
-        for (uint32_t k = 0; k < count; k++) {
-            bound(mesh, first + k, &own[k]);
+    leaf own;
+    read_leaf(mesh, from, &own);
+    stack[top++] = 0;
+    while (top > 0 && *steps > 0) {
+        const uint32_t index = stack[--top];
+        --*steps;
+        const knurl_bvh_node *node = &mesh->nodes[index];
+        if (!knurl_search_box_meets_node(&own.box, node)) {
+            continue;
         }
-        stack[0] = 0;
-        top = 1;
-        while (top > 0 && *steps > 0) {
-            const uint32_t index = stack[--top];
-            --*steps;
-            const knurl_bvh_node *node = &mesh->nodes[index];
-            if (!knurl_search_box_meets_node(&box, node)) {
-                continue;
+        if (node->count == 0) {
+            stack[top++] = node->first;
+            if (&mesh->nodes[node->first] > from) { /* else all of its left child comes before the leaf */
+                stack[top++] = index + 1;
             }
-            if (node->count == 0) {
-                stack[top++] = node->first;
-                if (&mesh->nodes[node->first] > leaf) { /* else all of its left child comes before the leaf */
-                    stack[top++] = index + 1;
-                }
-            } else if (node->first >= leaf->first) {
-                const uint64_t tests = (uint64_t)count * node->count;
-                *steps -= tests < *steps ? tests : *steps;
-                pairs += count_pairs(mesh, own, count, &box, node);
-            }
+        } else if (node->first >= from->first) {
+            const uint64_t tests = (uint64_t)own.count * node->count;
+            *steps -= tests < *steps ? tests : *steps;
+            pairs += count_pairs(mesh, &own, node);
         }
     }
     return pairs;
