@@ -59,7 +59,8 @@ static void link_corner(const adjacency *adj, uint32_t from, edge_end *last, uin
         return;
     }
     if (*back != KNURL_NON_MANIFOLD_EDGE) {
-        opposite[corner_slot(*back & KNURL_CORNER_MASK)] = *back = KNURL_NON_MANIFOLD_EDGE;
+        opposite[corner_slot(*back & KNURL_CORNER_MASK)] = KNURL_NON_MANIFOLD_EDGE;
+        *back = KNURL_NON_MANIFOLD_EDGE;
     }
     *across = KNURL_NON_MANIFOLD_EDGE;
 }
