@@ -42,7 +42,4 @@ const knurl_inverse3_service *knurl_inverse3_websocket(char *why, size_t why_siz
 /* Opens the driver on another service. Errors: as knurl_device_open(). */
 knurl_result knurl_inverse3_open(const char *options, const knurl_inverse3_service *service, knurl_device **device);
 
-/* Lists the devices of another service at the usual port, or the reason if there is no device. */
-void knurl_inverse3_list(const knurl_inverse3_service *service, knurl_listings *listings);
-
 #endif

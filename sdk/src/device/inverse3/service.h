@@ -25,4 +25,7 @@ const knurl_inverse3_model *knurl_inverse3_find_model(const knurl_inverse3_entry
 knurl_result knurl_inverse3_first(const knurl_inverse3_service *service, int port, knurl_inverse3_channel *channel,
                                   knurl_inverse3_state *state);
 
+/* Lists the devices of another service at the usual port, or the reason if there is no device. */
+void knurl_inverse3_list(const knurl_inverse3_service *service, knurl_listings *listings);
+
 #endif
