@@ -1,6 +1,7 @@
 /* The driver of the Inverse3 over a simulated service: axes, forces, orientation, faults, ends.
  * SPDX-License-Identifier: MIT */
 #include "device/inverse3/inverse3_double.h"
+#include "device/inverse3/service.h"
 #include "support/close.h"
 
 #include "base/system.h"
