@@ -10,6 +10,8 @@ namespace Knurl.Samples
         internal const int Width = 400; // pixels, and ticks
         internal const int Height = 160; // pixels
         const int Half = Height / 2;
+        const int Label = 24; // above each curve
+        const int Curve = Half - Label;
         static readonly Color32 Paper = new Color32(23, 26, 33, 230);
         static readonly Color32 Rule = new Color32(70, 76, 86, 255);
         static readonly Color32 HeightInk = new Color32(255, 191, 90, 255);
@@ -26,7 +28,7 @@ namespace Knurl.Samples
             int ticks = device.GetHistory(rows);
             for (int i = 0; i < pixels.Length; i++)
             {
-                pixels[i] = i / Width == Half || i / Width == Half + Half / 2 ? Rule : Paper;
+                pixels[i] = i / Width == Half || i / Width == Half + Curve / 2 ? Rule : Paper;
             }
             for (int i = 0; i < ticks; i++)
             {
@@ -46,7 +48,7 @@ namespace Knurl.Samples
             for (int i = 0; i < ticks; i++)
             {
                 float share = Mathf.Clamp01((rows[2 * i + column] - low) / (high - low));
-                int y = bottom + Mathf.RoundToInt(share * (Half - 1));
+                int y = bottom + Mathf.RoundToInt(share * (Curve - 1));
                 int from = last < 0 ? y : Mathf.Min(y, last);
                 int to = last < 0 ? y : Mathf.Max(y, last);
                 for (int at = from; at <= to; at++)
@@ -60,9 +62,9 @@ namespace Knurl.Samples
         internal void Show(Rect rect)
         {
             GUI.DrawTexture(rect, texture);
-            GUI.Label(new Rect(rect.x + 6f, rect.y, 300f, 24f), "height, to " + (1e3f * heightEnd).ToString("F2")
+            GUI.Label(new Rect(rect.x + 6f, rect.y, 300f, Label), "height, to " + (1e3f * heightEnd).ToString("F2")
                 + " mm");
-            GUI.Label(new Rect(rect.x + 6f, rect.y + Half, 300f, 24f), "force, to " + forceEnd.ToString("F2") + " N");
+            GUI.Label(new Rect(rect.x + 6f, rect.y + Half, 300f, Label), "force, to " + forceEnd.ToString("F2") + " N");
         }
 
         internal void Release()
