@@ -2,12 +2,9 @@
 #include "device/doubles.h"
 
 #include "device/dhd/dhd_double.h"
-#include "device/falcon/falcon_double.h"
 #include "device/faults/functions_double.h"
 #include "device/inverse3/inverse3_double.h"
-#include "device/rawhid/rawhid_double.h"
 #include "device/rawhid/serial_double.h"
-#include "device/touch/touch_double.h"
 
 const device_double *const doubles[] = {
     &touch_double, &falcon_double, &rawhid_double, &serial_double, &dhd_double, &inverse3_double, &functions_double,

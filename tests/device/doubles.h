@@ -6,6 +6,7 @@
 
 #include <stddef.h>
 
+extern const device_double touch_double, falcon_double, rawhid_double;
 extern const device_double *const doubles[];
 extern const size_t double_count;
 

@@ -1,7 +1,6 @@
 /* The Falcon's row in the table of faults. SPDX-License-Identifier: MIT */
-#include "falcon_double.h"
-
-#include "falcon_fake.h"
+#include "device/doubles.h"
+#include "device/falcon/falcon_fake.h"
 
 static falcon_fake fake;
 

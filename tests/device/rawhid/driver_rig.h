@@ -12,7 +12,6 @@
 #include "device/rawhid/geometry.h"
 #include "device/rawhid/kinematics.h"
 #include "device/rawhid/rawhid_device.h"
-#include "device/rawhid/rawhid_double.h"
 #include "device/rawhid/ticking.h"
 #include "device/rawhid/transport.h"
 

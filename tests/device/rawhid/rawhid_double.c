@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "device/rawhid/rawhid_double.h"
+#include "device/doubles.h"
 
 #include "device/rawhid/fake_hid.h"
 #include "device/rawhid/transport.h"

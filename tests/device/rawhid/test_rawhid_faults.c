@@ -122,27 +122,3 @@ TEST_WITH(found_again_it_is_homed_only_if_it_lost_its_counters, set_up, tear_dow
         device = NULL;
     }
 }
-
-/* --- the double --- */
-
-TEST_WITH(the_double_has_every_fault_that_it_claims_and_is_well_again, set_up, tear_down) {
-    for (int fault = DOUBLE_UNPLUG; fault < DOUBLE_FAULT_COUNT; fault++) {
-        if (rawhid_double.faults >> fault & 1u) {
-            knurl_device_sample sample;
-            device = rawhid_double.open();
-            assert_non_null(device);
-            (void)wait_for_position();
-            rawhid_double.inject(fault);
-            int told = 0;
-            for (int i = 0; i < 5000 && !told; i++) {
-                told = knurl_device_read(device, &sample) != KNURL_OK;
-                sleep_s(0.001);
-            }
-            assert_true(told);
-            rawhid_double.inject(DOUBLE_WELL);
-            assert_true(rawhid_double.limp_since() > 0);
-            rawhid_double.close(device);
-            device = NULL;
-        }
-    }
-}

@@ -4,31 +4,6 @@
 #include "device/driver.h"
 #include "device/port.h"
 
-/* A device, and a loop that pushes with one force. */
-typedef struct bench {
-    knurl_device *device;
-    stub_push push;
-    knurl_loop *loop;
-} bench;
-
-static void start(bench *b, double force) {
-    memset(b, 0, sizeof *b);
-    b->push.force[1] = force;
-    b->device = stub_open("touch");
-    const knurl_loop_desc desc = stub_loop_desc(b->device, &b->push);
-    b->loop = stub_loop(&desc);
-}
-
-static void end(bench *b) {
-    stub_end_loop(b->loop);
-    assert_true(stub.ask(STUB_DEFAULT, STUB_TOLD) == 0.0);
-    knurl_device_close(b->device);
-}
-
-static double told(void) {
-    return stub.ask(STUB_DEFAULT, STUB_TOLD);
-}
-
 /* --- information --- */
 
 TEST_WITH(what_hd_tells_of_the_device_comes_in_si, stub_by_hand, stub_check) {
@@ -105,90 +80,76 @@ TEST_WITH(a_handle_that_is_none_is_refused_with_the_first_calls_error, stub_by_h
 
 /* The stub's stylus is turned by 120 degrees about (1, 1, 1): x to y, y to z, z to x. */
 TEST_WITH(the_orientation_of_the_stylus_is_told, stub_by_hand, stub_check) {
-    bench b;
-    start(&b, 0.0);
+    start(0.0);
     stub.turn(10);
-    const knurl_device_status status = device_status(b.device);
+    const knurl_device_status status = device_status(bench.device);
     for (int i = 0; i < 4; i++) {
         CHECK_CLOSE(status.orientation[i], 0.5, 1e-15); /* cos 60 degrees, and sin 60 degrees / sqrt 3 */
     }
-    end(&b);
 }
 
 /* Three of the arm, then three of the gimbal; -0.3 and 3 are the stub's last ones. */
 TEST_WITH(the_joints_angles_are_in_the_sample, stub_by_hand, stub_check) {
-    bench b;
-    start(&b, 0.0);
+    start(0.0);
     stub.turn(10);
-    assert_int_equal(b.push.joint_count, 6);
-    CHECK_CLOSE(b.push.joints[2], -0.3, 1e-15);
-    CHECK_CLOSE(b.push.joints[5], 3.0, 1e-15);
-    end(&b);
+    assert_int_equal(bench.push.joint_count, 6);
+    CHECK_CLOSE(bench.push.joints[2], -0.3, 1e-15);
+    CHECK_CLOSE(bench.push.joints[5], 3.0, 1e-15);
 }
 
 TEST_WITH(positions_come_in_metres_and_buttons_as_bits, stub_by_hand, stub_check) {
-    bench b;
     stub.set(STUB_DEFAULT, STUB_STROKE, KNURL_STROKE_REST);
-    start(&b, 0.0);
+    start(0.0);
     stub.turn(1500);
     CHECK_CLOSE(stub.ask(STUB_DEFAULT, STUB_DEPTH), 0.001, 0.0005); /* a hand at rest, 1 mm below, dry friction */
-    CHECK_CLOSE(b.push.from[1], -stub.ask(STUB_DEFAULT, STUB_DEPTH), 0.00006); /* an encoder's step */
-    CHECK_CLOSE(b.push.from[0], 0.0, 0.0005);
-    assert_int_equal(b.push.buttons, 1);
-    end(&b);
+    CHECK_CLOSE(bench.push.from[1], -stub.ask(STUB_DEFAULT, STUB_DEPTH), 0.00006); /* an encoder's step */
+    CHECK_CLOSE(bench.push.from[0], 0.0, 0.0005);
+    assert_int_equal(bench.push.buttons, 1);
 }
 
 TEST_WITH(the_force_of_a_tick_is_what_the_motors_are_told_in_its_frame, stub_by_hand, stub_check) {
-    bench b;
-    start(&b, 1.25);
+    start(1.25);
     stub.turn(1);
     CHECK_CLOSE(told(), 1.25, 1e-12);
-    b.push.force[1] = -0.5;
+    bench.push.force[1] = -0.5;
     stub.turn(1);
     CHECK_CLOSE(told(), 0.5, 1e-12);
-    assert_int_equal(b.push.ticks, 2);
-    end(&b);
+    assert_int_equal(bench.push.ticks, 2);
 }
 
 TEST_WITH(forces_are_shortened_to_what_the_device_can_play_and_are_never_nan, stub_by_hand, stub_check) {
-    bench b;
-    start(&b, 100.0);
+    start(100.0);
     stub.turn(3);
     CHECK_CLOSE(told(), 3.3, 1e-9);
-    b.push.force[0] = NAN;
+    bench.push.force[0] = NAN;
     stub.turn(3);
     assert_true(told() == 0.0);
     assert_true(stub.ask(STUB_DEFAULT, STUB_TOLD_BAD) == 0.0);
     assert_true(stub.ask(STUB_DEFAULT, STUB_TOLD_MOST) <= 3.3 + 1e-9);
-    b.push.force[0] = 0.0;
-    end(&b);
+    bench.push.force[0] = 0.0;
 }
 
 TEST_WITH(a_device_that_is_halted_has_no_force_within_a_frame_and_comes_back_by_the_ramp, stub_by_hand, stub_check) {
-    bench b;
-    start(&b, 1.0);
+    start(1.0);
     stub.turn(5);
-    knurl_device_halt(b.device);
+    knurl_device_halt(bench.device);
     stub.turn(1);
     assert_true(told() == 0.0);
     stub.turn(1);
     assert_true(told() > 0.0 && told() < 0.1); /* a ramp of 20 ticks */
     stub.turn(30);
     CHECK_CLOSE(told(), 1.0, 1e-12);
-    end(&b);
 }
 
 TEST_WITH(it_counts_as_quiet_only_when_the_frame_without_a_force_is_out, stub_by_hand, stub_check) {
-    bench b;
-    start(&b, 1.0);
-    assert_int_equal(b.device->quiet, 1);
+    start(1.0);
+    assert_int_equal(bench.device->quiet, 1);
     stub.turn(2);
-    assert_int_equal(b.device->quiet, 0);
-    knurl_device_halt(b.device);
-    assert_int_equal(b.device->quiet, 0);
+    assert_int_equal(bench.device->quiet, 0);
+    knurl_device_halt(bench.device);
+    assert_int_equal(bench.device->quiet, 0);
     stub.turn(1);
-    assert_int_equal(b.device->quiet, 1);
-    end(&b);
+    assert_int_equal(bench.device->quiet, 1);
 }
 
 /* --- a servo thread's own ticks --- */
@@ -268,18 +229,16 @@ TEST_WITH(closing_zeroes_the_force_and_nothing_is_called_any_more, stub_by_hand,
 
 TEST_WITH(it_can_be_read_and_written_only_in_a_tick, stub_by_hand, stub_check) {
     static const double force[3] = {0.0, 1.0, 0.0};
-    bench b;
     knurl_device_sample sample;
-    start(&b, 0.0);
-    assert_int_equal(knurl_device_read(b.device, &sample), KNURL_ERROR_STATE);
-    assert_int_equal(knurl_device_write(b.device, force), KNURL_ERROR_STATE);
+    start(0.0);
+    assert_int_equal(knurl_device_read(bench.device, &sample), KNURL_ERROR_STATE);
+    assert_int_equal(knurl_device_write(bench.device, force), KNURL_ERROR_STATE);
     stub.turn(2);
-    assert_int_equal(knurl_device_read(b.device, &sample), KNURL_ERROR_STATE);
-    assert_int_equal(knurl_device_write(b.device, force), KNURL_ERROR_STATE);
+    assert_int_equal(knurl_device_read(bench.device, &sample), KNURL_ERROR_STATE);
+    assert_int_equal(knurl_device_write(bench.device, force), KNURL_ERROR_STATE);
     stub.turn(1);
     assert_true(stub.ask(STUB_DEFAULT, STUB_TOLD_MOST) == 0.0);
-    assert_int_equal(knurl_port_is_halted(b.device), 0);
-    end(&b);
+    assert_int_equal(knurl_port_is_halted(bench.device), 0);
 }
 
 TEST_WITH(a_loop_cannot_be_stepped, stub_by_hand, stub_check) {
@@ -313,17 +272,15 @@ TEST_WITH(rates_that_the_scheduler_cannot_keep_are_refused, stub_by_hand, stub_c
 }
 
 TEST_WITH(a_scheduler_that_changes_no_rate_is_taken_at_the_rate_that_it_has, stub_by_hand, stub_check) {
-    bench b;
     stub.set(0, STUB_RATE_ERROR, 0x0102); /* OpenHaptics 3.0 */
     knurl_device *device = stub_open("touch");
     assert_int_equal(knurl_device_start(device, 1000.0), KNURL_OK);
     assert_int_equal(knurl_device_start(device, 500.0), KNURL_ERROR_UNSUPPORTED);
     check_message("expected 1000 Hz");
     knurl_device_close(device);
-    start(&b, 1.0);
+    start(1.0);
     stub.turn(100);
-    CHECK_CLOSE(stub.ask(STUB_DEFAULT, STUB_TOLD), 1.0, 1e-12);
-    end(&b);
+    CHECK_CLOSE(told(), 1.0, 1e-12);
 }
 
 TEST_WITH(a_timer_error_of_a_refused_rate_is_no_lost_device, stub_by_hand, stub_check) {
@@ -338,7 +295,7 @@ TEST_WITH(a_timer_error_of_a_refused_rate_is_no_lost_device, stub_by_hand, stub_
     stub.turn(100);
     const knurl_device_status status = device_status(device);
     assert_int_equal(status.lost, 0);
-    CHECK_CLOSE(stub.ask(STUB_DEFAULT, STUB_TOLD), 1.0, 1e-12);
+    CHECK_CLOSE(told(), 1.0, 1e-12);
     stub_end_loop(loop);
 }
 

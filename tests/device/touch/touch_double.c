@@ -1,6 +1,6 @@
 /* The Touch's double. HD is a call interface without a visible wire, so messages cannot be cut, mixed up or delayed
  * here. SPDX-License-Identifier: MIT */
-#include "device/touch/touch_double.h"
+#include "device/doubles.h"
 
 #include "base/system.h"
 #include "device/touch/stub_hd.h"
