@@ -4,6 +4,7 @@
 #define KNURL_TEST_CLOSE_H
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include <knurl/base.h>
@@ -45,11 +46,17 @@ static inline void check_refusal(knurl_result result, knurl_result expected, con
     }
 }
 
-/** Checks that the last error message contains a word. */
-static inline void check_message(const char *word) {
-    if (!strstr(knurl_error_message(), word)) {
-        print_error("\"%s\" lacks \"%s\"\n", knurl_error_message(), word);
-        fail();
+/** Checks that the last error message contains each of `words`, which are apart by '|'. */
+static inline void check_message(const char *words) {
+    for (const char *next = words; next; words = next) {
+        char word[512];
+        const size_t length = strcspn(words, "|");
+        (void)snprintf(word, sizeof word, "%.*s", (int)length, words);
+        if (!strstr(knurl_error_message(), word)) {
+            print_error("\"%s\" lacks \"%s\"\n", knurl_error_message(), word);
+            fail();
+        }
+        next = words[length] ? words + length + 1 : NULL;
     }
 }
 
@@ -64,6 +71,13 @@ static inline uint64_t random_bits(uint64_t *state) {
 /** Evenly in [low, high). */
 static inline double random_between(uint64_t *state, double low, double high) {
     return low + (high - low) * ((double)(random_bits(state) >> 11) / 9007199254740992.0);
+}
+
+/** Each component evenly in [low, high). */
+static inline void random_vector(uint64_t *state, double low, double high, double v[3]) {
+    for (int axis = 0; axis < 3; axis++) {
+        v[axis] = random_between(state, low, high);
+    }
 }
 
 /** Evenly among low, low + 1, ... high. */

@@ -52,9 +52,7 @@ TEST(a_malformed_option_is_refused_with_the_device_the_text_and_the_known_keys) 
     char nothing = 0;
     for (size_t i = 0; i < COUNT_OF(wrong); i++) {
         CHECK_REFUSED(parse(wrong[i]), KNURL_ERROR_ARGUMENT, nothing);
-        check_message("touch");
-        check_message("library=");
-        check_message("serial=");
+        check_message("touch|library=|serial=");
     }
     CHECK_REFUSED(parse("?serial=1&other=2&library=3"), KNURL_ERROR_ARGUMENT, nothing);
     check_message("'other=2'");
@@ -92,8 +90,7 @@ TEST(a_device_without_keys_takes_a_name_only) {
     assert_int_equal(knurl_uri_parse("omega", "left", name, NULL, 0), KNURL_OK);
     assert_string_equal(name, "left");
     CHECK_REFUSED(knurl_uri_parse("omega", "left?a=b", name, NULL, 0), KNURL_ERROR_ARGUMENT, nothing);
-    check_message("omega");
-    check_message("a=b");
+    check_message("omega|a=b");
     assert_null(strstr(knurl_error_message(), "expected ,"));
 }
 

@@ -4,6 +4,7 @@
 #define KNURL_TEST_FALCON_RIG_H
 
 #include "support/close.h"
+#include "support/wait.h"
 
 #include "device/driver.h"
 #include "device/port.h"
@@ -15,43 +16,41 @@
 static falcon_fake fake;
 static const double no_force[3] = {0.0, 0.0, 0.0};
 
-static knurl_device *opened; /* a failed test leaves these; begin() closes them */
+static knurl_device *device;
 static knurl_loop *running;
 
-/* A fresh device on the bus, in a moving hand. */
-static inline void begin(void) {
-    knurl_loop_destroy(running);
-    running = NULL;
-    knurl_device_close(opened);
-    opened = NULL;
+/* A test's setup: a fresh device on the bus, in a moving hand. */
+static inline int begin(void **state) {
+    (void)state;
     falcon_fake_init(&fake, NULL);
+    return 0;
 }
 
-static inline knurl_device *open_with(const char *options) {
+static inline int end(void **state) {
+    (void)state;
+    knurl_loop_destroy(running);
+    running = NULL;
+    knurl_device_close(device);
+    device = NULL;
+    falcon_fake_free(&fake);
+    return fake.opens != fake.closes;
+}
+
+/* Another device, for a test's next case. */
+static inline void restart(void) {
+    assert_int_equal(end(NULL), 0);
+    (void)begin(NULL);
+}
+
+static inline void open_with(const char *options) {
     const knurl_falcon_bus bus = falcon_fake_bus(&fake);
     char all[512];
     (void)snprintf(all, sizeof all, "%s%cmotors_known=1", options, options[0] ? '&' : '?');
-    if (knurl_falcon_open_on(&bus, all, &opened)) {
+    if (knurl_falcon_open_on(&bus, all, &device)) {
         fail_msg("%s", knurl_error_message());
     }
-    knurl_device_register(opened);
-    assert_int_equal(knurl_device_start(opened, 1000.0), KNURL_OK);
-    return opened;
-}
-
-static inline knurl_device *open_fake(void) {
-    return open_with("");
-}
-
-static inline void close_fake(knurl_device *device) {
-    opened = NULL;
-    knurl_device_close(device);
-    assert_int_equal(fake.opens, fake.closes);
-    falcon_fake_free(&fake);
-}
-
-static inline void sleep_ms(int ms) {
-    knurl_system_sleep_until_ns(knurl_system_now_ns() + (int64_t)ms * 1000000);
+    knurl_device_register(device);
+    assert_int_equal(knurl_device_start(device, 1000.0), KNURL_OK);
 }
 
 typedef struct outcome {
@@ -61,7 +60,7 @@ typedef struct outcome {
 } outcome;
 
 /* A loop without a scene: reads, writes `force`, for so many ms. */
-static inline outcome run(knurl_device *device, int ms, const double force[3]) {
+static inline outcome run(int ms, const double force[3]) {
     outcome o;
     memset(&o, 0, sizeof o);
     int64_t next = knurl_system_now_ns();
@@ -88,25 +87,26 @@ static inline outcome run(knurl_device *device, int ms, const double force[3]) {
 }
 
 /* Opened, and its first position has come: until then it is halted, as a loop would have it. */
-static inline knurl_device *open_ready_with(const char *options) {
-    knurl_device *device = open_with(options);
-    for (int i = 0; i < 1000 && run(device, 1, no_force).good == 0; i++) {}
+static inline void open_ready_with(const char *options) {
+    open_with(options);
+    for (int i = 0; i < 1000 && run(1, no_force).good == 0; i++) {}
     knurl_port_release_halt(device);
-    return device;
 }
 
-static inline knurl_device *open_ready(void) {
-    return open_ready_with("");
+static inline void open_ready(void) {
+    open_ready_with("");
 }
 
-/* The count of a fault since the last call; *others: of all others. */
-static inline int events_of(knurl_device *device, int32_t code, int *others) {
+static int others; /* faults but the one that events_of() counted */
+
+/* The count of a fault since the last call. */
+static inline int events_of(int32_t code) {
     int count = 0;
     knurl_device_event event;
-    *others = 0;
+    others = 0;
     while (knurl_device_next_event(device, &event)) {
         count += event.code == code;
-        *others += event.code != code;
+        others += event.code != code;
     }
     return count;
 }

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT */
 #include "support/close.h"
 
+#include "base/vec3.h"
 #include "device/falcon/kinematics.h"
 #include "falcon_sim.h"
 
@@ -41,9 +42,8 @@ TEST(forward_finds_any_position_from_any_other) {
     uint64_t seed = 7;
     for (int n = 0; n < 100000; n++) {
         double ends[2][3];
-        for (int i = 0; i < 6; i++) {
-            ends[i / 3][i % 3] = random_between(&seed, -W, W);
-        }
+        random_vector(&seed, -W, W, ends[0]);
+        random_vector(&seed, -W, W, ends[1]);
         check_round_trip(ends[0], ends[1]);
     }
 }
@@ -92,9 +92,7 @@ TEST(the_jacobian_is_what_finite_differences_give) {
         double position[3];
         double theta[3];
         double jacobian[9];
-        for (int axis = 0; axis < 3; axis++) {
-            position[axis] = random_between(&seed, -W, W);
-        }
+        random_vector(&seed, -W, W, position);
         assert_true(knurl_falcon_inverse(position, theta));
         assert_true(knurl_falcon_jacobian(position, theta, jacobian));
         for (int axis = 0; axis < 3; axis++) {
@@ -122,10 +120,8 @@ TEST(motors_make_the_force_that_was_asked_for_by_virtual_work) {
         double made[3];
         double jacobian[9];
         int16_t motors[3];
-        for (int axis = 0; axis < 3; axis++) {
-            position[axis] = random_between(&seed, -W, W);
-            force[axis] = random_between(&seed, -1.0, 1.0);
-        }
+        random_vector(&seed, -W, W, position);
+        random_vector(&seed, -1.0, 1.0, force);
         assert_true(knurl_falcon_inverse(position, theta));
         assert_true(knurl_falcon_motors(position, theta, force, motors));
         falcon_sim_force(position, motors, made);
@@ -146,18 +142,10 @@ TEST(a_force_beyond_the_motors_keeps_its_direction) {
         double theta[3];
         double force[3];
         double made[3];
-        double size = 0.0;
-        double made_size = 0.0;
-        double along = 0.0;
         int16_t motors[3];
-        for (int axis = 0; axis < 3; axis++) {
-            position[axis] = random_between(&seed, -0.5 * W, 0.5 * W);
-            force[axis] = random_between(&seed, -1.0, 1.0);
-            size += force[axis] * force[axis];
-        }
-        for (int axis = 0; axis < 3; axis++) {
-            force[axis] *= length / sqrt(size);
-        }
+        random_vector(&seed, -0.5 * W, 0.5 * W, position);
+        random_vector(&seed, -1.0, 1.0, force);
+        vec3_scale(length / vec3_length(force), force, force);
         assert_true(knurl_falcon_inverse(position, theta));
         assert_true(knurl_falcon_motors(position, theta, force, motors));
         int most = 0;
@@ -166,11 +154,7 @@ TEST(a_force_beyond_the_motors_keeps_its_direction) {
         }
         assert_int_equal(most, KNURL_FALCON_MOTOR_MOST);
         falcon_sim_force(position, motors, made);
-        for (int axis = 0; axis < 3; axis++) {
-            made_size += made[axis] * made[axis];
-            along += made[axis] * force[axis] / length;
-        }
-        CHECK_CLOSE(along / sqrt(made_size), 1.0, 1e-5);
+        CHECK_CLOSE(vec3_dot(made, force) / length / vec3_length(made), 1.0, 1e-5);
     }
 }
 
@@ -205,10 +189,8 @@ TEST(forward_kinematics_are_exact_or_fail) {
         double position[3];
         double theta[3];
         double back[3];
-        for (int axis = 0; axis < 3; axis++) {
-            position[axis] = random_between(&seed, -0.06, 0.06);
-            theta[axis] = random_between(&seed, -2.0, 3.0);
-        }
+        random_vector(&seed, -0.06, 0.06, position);
+        random_vector(&seed, -2.0, 3.0, theta);
         if (knurl_falcon_forward(theta, position)) {
             found++;
             assert_true(knurl_falcon_inverse(position, back));

@@ -14,15 +14,26 @@
 
 static const double no_force[3] = {0.0, 0.0, 0.0};
 
-static void plug_in(falcon_emulation *setup) {
-    if (!setup->sim.baud && !setup->sim.plant.config.mass) {
-        falcon_sim_init(&setup->sim, NULL);
-    }
-    assert_true(falcon_emulated_start(setup));
+static falcon_emulation setup; /* reset by each test */
+static knurl_device *device;
+
+/* Puts a Falcon like `setup` there. */
+static void plug_in(void) {
+    falcon_sim_init(&setup.sim, NULL);
+    assert_true(falcon_emulated_start(&setup));
+}
+
+static int end(void **state) {
+    (void)state;
+    knurl_device_close(device);
+    device = NULL;
+    falcon_emulated_stop();
+    memset(&setup, 0, sizeof setup);
+    return 0;
 }
 
 /* Reads and writes for so many ms; every position that came is given to `visit` for a force. Returns how many. */
-static int run(knurl_device *device, int ms, double stiffness, int *lost) {
+static int run(int ms, double stiffness, int *lost) {
     int good = 0;
     int64_t next = knurl_system_now_ns();
     *lost = 0;
@@ -44,19 +55,19 @@ static int run(knurl_device *device, int ms, double stiffness, int *lost) {
 }
 
 /* Until so many more positions have come, whose rate is the emulation's and the machine's; it may not get lost. */
-static void run_until(knurl_device *device, uint64_t positions, double stiffness) {
+static void run_until(uint64_t positions, double stiffness) {
     knurl_device_status status = device_status(device);
     const uint64_t enough = status.exchanges + positions;
     for (int i = 0; i < 500 && status.exchanges < enough; i++) {
         int lost = 0;
-        (void)run(device, 20, stiffness, &lost);
+        (void)run(20, stiffness, &lost);
         assert_int_equal(lost, 0);
         status = device_status(device);
     }
     assert_true(status.exchanges >= enough);
 }
 
-static int reported(knurl_device *device, int32_t code) {
+static int reported(int32_t code) {
     int count = 0;
     knurl_device_event event;
     while (knurl_device_next_event(device, &event)) {
@@ -65,21 +76,18 @@ static int reported(knurl_device *device, int32_t code) {
     return count;
 }
 
-static knurl_device *open_falcon(void) {
-    knurl_device *device = NULL;
-    if (knurl_device_open("falcon", &device)) {
+static void open_falcon(const char *uri) {
+    if (knurl_device_open(uri, &device)) {
         fail_msg("%s", knurl_error_message());
     }
-    return device;
 }
 
 /* The hand presses 1 mm below the floor, its spring of 700 N/m against the floor's 400: it rests at their balance. */
-TEST(a_loop_over_usb_holds_the_hand_off_the_floor) {
-    falcon_emulation setup = {0};
-    plug_in(&setup);
-    knurl_device *device = open_falcon();
+TEST_WITH(a_loop_over_usb_holds_the_hand_off_the_floor, NULL, end) {
+    plug_in();
+    open_falcon("falcon");
     const int64_t begin = knurl_system_now_ns();
-    run_until(device, 500, 400.0); /* the simulated hand advances by a millisecond with each */
+    run_until(500, 400.0); /* the simulated hand advances by a millisecond with each */
     const double seconds = 1e-9 * (double)(knurl_system_now_ns() - begin);
     const knurl_device_status status = device_status(device);
     const falcon_sim sim = falcon_emulated_look();
@@ -90,32 +98,28 @@ TEST(a_loop_over_usb_holds_the_hand_off_the_floor) {
     /* 700 (0.001 - d) = 400 d, give or take dry friction (0.5 N over 1100 N/m) */
     CHECK_CLOSE(sim.plant.position[1], -0.001 * 700.0 / 1100.0, 0.5 / 1100.0 + 0.0001);
     knurl_device_close(device);
+    device = NULL;
     const falcon_sim after = falcon_emulated_look();
     assert_int_equal(after.motors[0] | after.motors[1] | after.motors[2], 0);
-    falcon_emulated_stop();
 }
 
-TEST(short_packets_change_nothing) {
-    falcon_emulation setup = {0};
+TEST_WITH(short_packets_change_nothing, NULL, end) {
     setup.is_split = 1;
-    plug_in(&setup);
-    knurl_device *device = open_falcon();
-    run_until(device, 100, 0.0);
-    assert_int_equal(reported(device, KNURL_FAULT_CORRUPT), 0);
-    knurl_device_close(device);
-    falcon_emulated_stop();
+    plug_in();
+    open_falcon("falcon");
+    run_until(100, 0.0);
+    assert_int_equal(reported(KNURL_FAULT_CORRUPT), 0);
 }
 
 /* Ten answers in packets of 6 bytes, 27 in all, all unread until the last frame was sent. */
-TEST(answers_that_wait_to_be_read_are_all_there) {
+TEST_WITH(answers_that_wait_to_be_read_are_all_there, NULL, end) {
     static const int16_t none[3] = {0, 0, 0};
-    falcon_emulation setup = {0};
     knurl_falcon_transport transport;
     knurl_falcon_decoder decoder = {0};
     uint8_t bytes[KNURL_FALCON_PACKET];
     uint32_t answers = 0;
     setup.is_split = 1;
-    plug_in(&setup);
+    plug_in();
     assert_int_equal(knurl_falcon_usb.open(NULL, &transport), KNURL_OK);
     assert_int_equal(transport.control(transport.self, 3, 2), KNURL_FALCON_DONE); /* the firmware's baud rate */
     knurl_falcon_encode(none, KNURL_FALCON_HOMING, bytes);
@@ -128,41 +132,34 @@ TEST(answers_that_wait_to_be_read_are_all_there) {
     }
     assert_int_equal(decoder.bad_bytes, 0);
     transport.close(transport.self);
-    falcon_emulated_stop();
 }
 
-TEST(a_mute_device_is_silent_then_lost) {
-    falcon_emulation setup = {0};
+TEST_WITH(a_mute_device_is_silent_then_lost, NULL, end) {
     int lost = 0;
-    plug_in(&setup);
-    knurl_device *device = open_falcon();
-    run_until(device, 1, 0.0);
+    plug_in();
+    open_falcon("falcon");
+    run_until(1, 0.0);
     falcon_emulated_mute(1);
-    (void)run(device, 100, 0.0, &lost);
-    assert_true(reported(device, KNURL_FAULT_SILENT) > 0);
-    (void)run(device, 1000, 0.0, &lost);
+    (void)run(100, 0.0, &lost);
+    assert_true(reported(KNURL_FAULT_SILENT) > 0);
+    (void)run(1000, 0.0, &lost);
     assert_true(lost > 0);
-    assert_int_equal(reported(device, KNURL_FAULT_LOST), 1);
-    knurl_device_close(device);
-    falcon_emulated_stop();
+    assert_int_equal(reported(KNURL_FAULT_LOST), 1);
 }
 
-TEST(a_pulled_cable_is_reported_at_once_and_the_device_had_back) {
-    falcon_emulation setup = {0};
+TEST_WITH(a_pulled_cable_is_reported_at_once_and_the_device_had_back, NULL, end) {
     int lost = 0;
-    plug_in(&setup);
-    knurl_device *device = open_falcon();
-    run_until(device, 1, 0.0);
+    plug_in();
+    open_falcon("falcon");
+    run_until(1, 0.0);
     falcon_emulated_unplug();
-    (void)run(device, 100, 0.0, &lost);
+    (void)run(100, 0.0, &lost);
     assert_true(lost > 50);
-    assert_int_equal(reported(device, KNURL_FAULT_LOST), 1);
+    assert_int_equal(reported(KNURL_FAULT_LOST), 1);
     assert_int_equal(knurl_device_reopen(device), KNURL_ERROR_DEVICE_LOST);
     assert_true(falcon_emulated_plug_in());
     assert_int_equal(knurl_device_reopen(device), KNURL_OK);
-    run_until(device, 10, 0.0);
-    knurl_device_close(device);
-    falcon_emulated_stop();
+    run_until(10, 0.0);
 }
 
 static knurl_device_listing find_listing(void) {
@@ -177,35 +174,27 @@ static knurl_device_listing find_listing(void) {
     return listings[0];
 }
 
-TEST(a_falcon_is_listed_and_one_that_is_not_there_says_so) {
-    falcon_emulation setup = {0};
-    plug_in(&setup);
+TEST_WITH(a_falcon_is_listed_and_one_that_is_not_there_says_so, NULL, end) {
+    plug_in();
     assert_string_equal(find_listing().uri, "falcon");
     assert_string_equal(find_listing().reason, "");
     falcon_emulated_unplug();
     assert_non_null(strstr(find_listing().reason, "0403:cb48"));
     assert_non_null(strstr(find_listing().reason, "not connected"));
-    knurl_device *device = NULL;
     CHECK_REFUSED(knurl_device_open("falcon", &device), KNURL_ERROR_DEVICE_LOST, device);
     check_message("0403:cb48");
-    falcon_emulated_stop();
 }
 
-TEST(a_device_that_somebody_else_holds_is_refused) {
-    falcon_emulation setup = {0};
-    knurl_device *device = NULL;
+TEST_WITH(a_device_that_somebody_else_holds_is_refused, NULL, end) {
     setup.is_held = 1;
-    plug_in(&setup);
+    plug_in();
     CHECK_REFUSED(knurl_device_open("falcon", &device), KNURL_ERROR_SYSTEM, device);
     check_message("in use: by another program, by this one");
-    falcon_emulated_stop();
 }
 
 /* root may open everything, so it becomes user nobody for this. */
-TEST(a_device_that_may_not_be_used_names_the_rule) {
-    falcon_emulation setup = {0};
-    knurl_device *device = NULL;
-    plug_in(&setup);
+TEST_WITH(a_device_that_may_not_be_used_names_the_rule, NULL, end) {
+    plug_in();
     char root[512];
     (void)snprintf(root, sizeof root, "%s", falcon_emulated_node());
     root[strlen(root) - strlen("/dev/bus/usb/001/002")] = '\0';
@@ -223,20 +212,17 @@ TEST(a_device_that_may_not_be_used_names_the_rule) {
         assert_int_equal(seteuid(0), 0);
     }
     assert_int_equal(result, KNURL_ERROR_SYSTEM);
-    check_message("sdk/udev/70-knurl.rules");
-    check_message("udevadm trigger");
+    check_message("sdk/udev/70-knurl.rules|udevadm trigger");
     assert_non_null(strstr(listing.reason, "sdk/udev/70-knurl.rules"));
-    falcon_emulated_stop();
 }
 
 /* libusb does not expose descriptors: checks that the one found is the device's. */
-TEST(a_guard_gets_the_devices_own_descriptor) {
-    falcon_emulation setup = {0};
+TEST_WITH(a_guard_gets_the_devices_own_descriptor, NULL, end) {
     knurl_falcon_transport transport;
     struct stat node;
     struct stat shared;
     int32_t endpoint = 0;
-    plug_in(&setup);
+    plug_in();
     assert_int_equal(knurl_falcon_usb.open(NULL, &transport), KNURL_OK);
     const int fd = transport.share(transport.self, &endpoint);
     assert_true(fd > 2);
@@ -246,27 +232,23 @@ TEST(a_guard_gets_the_devices_own_descriptor) {
     assert_int_equal(endpoint, 2);
     (void)close(fd);
     transport.close(transport.self);
-    falcon_emulated_stop();
 }
 
 /* Its transfers are for the kernel, which is not here; see test_guard_process.c. */
-TEST(with_a_guard_it_works_and_is_free_again_and_one_that_is_killed_is_reported) {
-    falcon_emulation setup = {0};
+TEST_WITH(with_a_guard_it_works_and_is_free_again_and_one_that_is_killed_is_reported, NULL, end) {
     struct stat node;
-    plug_in(&setup);
+    plug_in();
     assert_int_equal(stat(falcon_emulated_node(), &node), 0);
     for (int i = 0; i < 3; i++) {
-        SCOPED_DEVICE *device = NULL;
-        if (knurl_device_open("falcon:?guard=1", &device)) {
-            fail_msg("%s", knurl_error_message());
-        }
-        run_until(device, 50, 400.0);
-        assert_int_equal(reported(device, KNURL_FAULT_UNGUARDED), 0);
+        open_falcon("falcon:?guard=1");
+        run_until(50, 400.0);
+        assert_int_equal(reported(KNURL_FAULT_UNGUARDED), 0);
         if (i == 2) {
             assert_int_equal(kill(find_guard(node.st_ino), SIGKILL), 0);
-            run_until(device, 100, 400.0);
-            assert_int_equal(reported(device, KNURL_FAULT_UNGUARDED), 1);
+            run_until(100, 400.0);
+            assert_int_equal(reported(KNURL_FAULT_UNGUARDED), 1);
         }
+        knurl_device_close(device);
+        device = NULL;
     }
-    falcon_emulated_stop();
 }

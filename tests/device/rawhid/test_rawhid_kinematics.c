@@ -23,16 +23,10 @@ static int set_up(void **state) {
     return 0;
 }
 
-static void random_position(uint64_t *seed, double position[3]) {
-    for (int i = 0; i < 3; i++) {
-        position[i] = random_between(seed, -HALF, HALF);
-    }
-}
-
 /* Angles at a random position. */
 static void random_angles(uint64_t *seed, double angles[3]) {
     double position[3];
-    random_position(seed, position);
+    random_vector(seed, -HALF, HALF, position);
     assert_int_equal(knurl_rawhid_inverse(&arm, position, angles), 1);
 }
 
@@ -112,7 +106,7 @@ TEST(forward_of_inverse_is_the_same_place_all_over_the_workspace) {
         double position[3];
         double angles[3];
         double back[3];
-        random_position(&seed, position);
+        random_vector(&seed, -HALF, HALF, position);
         assert_int_equal(knurl_rawhid_inverse(&arm, position, angles), 1);
         assert_int_equal(knurl_rawhid_is_pose(&arm, angles), 1);
         knurl_rawhid_position(&arm, angles, back);
@@ -128,7 +122,7 @@ TEST(the_inverse_finds_the_angles_that_root_finding_finds) {
         double position[3];
         double angles[3];
         double bent[3];
-        random_position(&seed, position);
+        random_vector(&seed, -HALF, HALF, position);
         const double own[3] = {position[2], position[0], position[1]};
         assert_int_equal(knurl_rawhid_inverse(&arm, position, angles), 1);
         assert_int_equal(hid_sim_bend(own, bent), 1);
@@ -200,8 +194,8 @@ TEST(the_currents_push_with_the_force_that_was_asked_for) {
         double angles[3];
         double pushed[3];
         int16_t ma[3];
-        const double force[3] = {random_between(&seed, -1.0, 1.0), random_between(&seed, -1.0, 1.0),
-                                 random_between(&seed, -1.0, 1.0)};
+        double force[3];
+        random_vector(&seed, -1.0, 1.0, force);
         random_angles(&seed, angles);
         knurl_rawhid_currents(&arm, angles, force, ma);
         hid_sim_push(angles, ma, pushed);
@@ -230,8 +224,8 @@ TEST(no_motor_gets_more_than_its_limit_and_the_force_keeps_its_direction) {
         double pushed[3];
         double across[3];
         int16_t ma[3];
-        const double force[3] = {random_between(&seed, -50.0, 50.0), random_between(&seed, -50.0, 50.0),
-                                 random_between(&seed, -50.0, 50.0)};
+        double force[3];
+        random_vector(&seed, -50.0, 50.0, force);
         random_angles(&seed, angles);
         knurl_rawhid_currents(&arm, angles, force, ma);
         int greatest = 0;

@@ -79,8 +79,7 @@ TEST(another_models_firmware_is_named) {
     knurl_device_close(device);
     serial_double_model(1);
     assert_null(serial_double_open(""));
-    check_message("model 1");
-    check_message("device 'serial'");
+    check_message("model 1|device 'serial'");
     serial_double_model(3);
     serial_double_press();
     device = serial_double_open("");
