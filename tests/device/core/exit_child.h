@@ -125,9 +125,10 @@ static void install(void) {
     }
 }
 
-/* Runs a child. Returns its status from waitpid(). */
+/* Runs a child, with the shared memory as new. Returns its status from waitpid(). */
 static int run(void (*child)(int argument), int argument) {
     int status = 0;
+    memset(m, 0, sizeof *m);
     const pid_t pid = fork();
     assert_true(pid >= 0);
     if (pid == 0) {

@@ -5,6 +5,7 @@
 
 #include "support/close.h"
 #include "support/double.h"
+#include "support/wait.h"
 
 #include "base/atomic.h"
 #include "base/system.h"
@@ -244,27 +245,41 @@ static inline int32_t next_code(knurl_device *device, int32_t but) {
     return 0;
 }
 
-/** Waits for an event of a code, ignoring others; 0 if none comes within 5 s. */
-static inline uint32_t wait_for_event(knurl_device *device, int32_t code, knurl_device_event *event) {
-    const int64_t until = now_ns() + INT64_C(5000000000);
-    while (now_ns() < until) {
-        while (knurl_device_next_event(device, event)) {
-            if (event->code == code) {
-                return 1;
-            }
+/** Checks the codes of all events but those of `but` (0: of none); the last code is 0. */
+static inline void check_codes(knurl_device *device, int32_t but, const int32_t *codes, const char *file, int line) {
+    for (int i = 0;; i++) {
+        const int32_t code = next_code(device, but);
+        if (code != codes[i]) {
+            print_error("event %d: '%s' instead of '%s'\n", i, code ? knurl_fault_name(code) : "none",
+                        codes[i] ? knurl_fault_name(codes[i]) : "none");
+            _fail(file, line);
         }
-        sleep_ns(200000);
+        if (code == 0) {
+            return;
+        }
     }
-    return 0;
 }
 
-/** Waits until a counter of a home has reached `value`; it must within 5 s. */
-static inline void wait_for_count(const uint64_t *counter, uint64_t value) {
+#define CHECK_CODES(device, but, ...) check_codes(device, but, (const int32_t[]){__VA_ARGS__, 0}, __FILE__, __LINE__)
+
+/** Waits for an event of a code, ignoring others. */
+static inline knurl_device_event wait_for_event(knurl_device *device, int32_t code) {
+    knurl_device_event event = {0};
     const int64_t until = now_ns() + INT64_C(5000000000);
-    while (knurl_load_acquire(counter) < value && now_ns() < until) {
-        sleep_ns(200000);
+    while (event.code != code) {
+        if (now_ns() > until) {
+            fail_msg("no event '%s' within 5 s", knurl_fault_name(code));
+        }
+        if (!knurl_device_next_event(device, &event)) {
+            sleep_ns(200000);
+        }
     }
-    assert_true(knurl_load_acquire(counter) >= value);
+    return event;
+}
+
+/** Waits until a counter of a home has reached `value`. */
+static inline void wait_for_count(const uint64_t *counter, uint64_t value) {
+    WAIT_FOR(knurl_load_acquire(counter) >= value);
 }
 
 #endif

@@ -26,6 +26,10 @@ static void handle(int number, int flags, void (*plain)(int)) {
     }
 }
 
+static void check_exited(int status, int code) {
+    assert_true(WIFEXITED(status) && WEXITSTATUS(status) == code);
+}
+
 static void crash_with_handler(int is_siginfo) {
     handle(SIGSEGV, is_siginfo ? SA_SIGINFO : 0, is_siginfo ? NULL : on_plain);
     (void)open_and_push(1);
@@ -37,9 +41,7 @@ static void crash_with_handler(int is_siginfo) {
 
 TEST_WITH(a_handler_of_crashes_is_called_with_zero_force_and_decides, share, unshare) {
     for (int is_siginfo = 0; is_siginfo < 2; is_siginfo++) {
-        memset(m, 0, sizeof *m);
-        const int status = run(crash_with_handler, is_siginfo);
-        assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 7);
+        check_exited(run(crash_with_handler, is_siginfo), 7);
         assert_int_equal(m->handled, 1);
         assert_int_equal(m->reached, 1);
         assert_int_equal(m->was_siginfo, is_siginfo);
@@ -61,9 +63,7 @@ static void be_signalled(int number) {
 TEST_WITH(a_signal_that_the_host_handles_is_left_to_it_and_exit_zeroes, share, unshare) {
     static const int numbers[] = {SIGTERM, SIGHUP, SIGINT, SIGUSR1, SIGALRM, SIGPROF, SIGTSTP};
     for (size_t i = 0; i < COUNT_OF(numbers); i++) {
-        memset(m, 0, sizeof *m);
-        const int status = run(be_signalled, numbers[i]);
-        assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 7);
+        check_exited(run(be_signalled, numbers[i]), 7);
         assert_int_equal(m->handled, 1);
         assert_int_equal(m->handled_limp, 0);
         assert_int_equal(m->reached, 1);
@@ -85,7 +85,6 @@ static void recover_from_a_fault(int flag) {
 
 TEST_WITH(a_runtime_that_recovers_from_faults_keeps_its_handler_and_its_forces, share, unshare) {
     for (int flag = 0; flag < 2; flag++) {
-        memset(m, 0, sizeof *m);
         check_ended_by(run(recover_from_a_fault, flag), SIGABRT);
         assert_int_equal(m->handled, 1);
         assert_int_equal(m->reached, flag);
@@ -136,7 +135,6 @@ static void read_through_a_signal(int flags) {
 /* Otherwise a game's reads and waits would start to fail. */
 TEST_WITH(calls_that_a_handler_from_before_did_not_interrupt_are_not_interrupted, share, unshare) {
     for (int restarts = 0; restarts < 2; restarts++) {
-        memset(m, 0, sizeof *m);
         assert_int_equal(run(read_through_a_signal, restarts ? SA_RESTART : 0), 0);
         assert_int_equal(m->handled, 1);
         assert_int_equal(m->reached, restarts);
@@ -188,8 +186,7 @@ static void install_twice(int number) {
 }
 
 TEST_WITH(installing_it_twice_is_fine, share, unshare) {
-    const int status = run(install_twice, SIGSEGV);
-    assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 8);
+    check_exited(run(install_twice, SIGSEGV), 8);
     assert_int_equal(m->handled, 1);
     check_limp();
 }

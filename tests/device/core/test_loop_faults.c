@@ -4,8 +4,7 @@
 
 /* --- lost and found --- */
 
-TEST_WITH(a_stepped_loop_looks_for_its_device_every_beat_and_comes_back_by_the_ramp, NULL, end_rig) {
-    init();
+TEST_WITH(a_stepped_loop_looks_for_its_device_every_beat_and_comes_back_by_the_ramp, begin_rig, end_rig) {
     r.desc.reconnect = 1;
     r.reads_left = 70;
     extra.fails = 9;
@@ -21,10 +20,7 @@ TEST_WITH(a_stepped_loop_looks_for_its_device_every_beat_and_comes_back_by_the_r
     assert_int_equal(r.writes, 190);
     CHECK_SAME(r.written[69][1], 1.0L);
     check_ramp_up(70);
-    assert_int_equal(next_event(), KNURL_FAULT_LOST);
-    assert_int_equal(next_event(), KNURL_FAULT_RECONNECTED);
-    assert_int_equal(next_event(), KNURL_FAULT_RESUMED);
-    assert_int_equal(next_event(), 0);
+    CHECK_EVENTS(KNURL_FAULT_LOST, KNURL_FAULT_RECONNECTED, KNURL_FAULT_RESUMED);
 }
 
 TEST_WITH(a_running_loop_looks_for_its_device_four_times_a_second, NULL, end_rig) {
@@ -33,7 +29,7 @@ TEST_WITH(a_running_loop_looks_for_its_device_four_times_a_second, NULL, end_rig
     extra.fails = 2;
     rig_create(&r);
     assert_int_equal(knurl_loop_start(r.loop), KNURL_OK);
-    wait_until_absent();
+    WAIT_FOR(rig_stats(&r).absent);
     wait_for_ticks(150);
     assert_int_equal(rig_stats(&r).state, KNURL_LOOP_RUNNING);
     assert_true(rig_stats(&r).absences >= 200); /* two times a quarter of a second */
@@ -43,10 +39,7 @@ TEST_WITH(a_running_loop_looks_for_its_device_four_times_a_second, NULL, end_rig
     assert_true(extra.tried_at[2] - extra.tried_at[1] >= 245000000);
     check_ramp_up(70);
     assert_int_equal(r.out_of_order, 0);
-    assert_int_equal(next_event(), KNURL_FAULT_LOST);
-    assert_int_equal(next_event(), KNURL_FAULT_RECONNECTED);
-    assert_int_equal(next_event(), KNURL_FAULT_RESUMED);
-    assert_int_equal(next_event(), 0);
+    CHECK_EVENTS(KNURL_FAULT_LOST, KNURL_FAULT_RECONNECTED, KNURL_FAULT_RESUMED);
 }
 
 TEST_WITH(without_reconnect_a_lost_device_ends_the_loop_and_nobody_looks_for_it, NULL, end_rig) {
@@ -64,8 +57,7 @@ TEST_WITH(without_reconnect_a_lost_device_ends_the_loop_and_nobody_looks_for_it,
         assert_int_equal(rig_stats(&r).ticks, 70);
         assert_int_equal(rig_stats(&r).absences, 1);
         assert_int_equal(extra.reopens, 0);
-        assert_int_equal(next_event(), KNURL_FAULT_LOST);
-        assert_int_equal(next_event(), 0);
+        CHECK_EVENTS(KNURL_FAULT_LOST);
         rig_check_halted(&r);
         rig_destroy(&r);
     }
@@ -101,7 +93,7 @@ TEST_WITH(a_stop_while_the_device_is_lost_ends_the_loop, NULL, end_rig) {
         rig_create(&r);
         if (threaded) {
             assert_int_equal(knurl_loop_start(r.loop), KNURL_OK);
-            wait_until_absent();
+            WAIT_FOR(rig_stats(&r).absent);
             const int64_t asked = now_ns();
             knurl_loop_stop(r.loop);
             assert_true(now_ns() - asked < 2000000000);
@@ -134,7 +126,7 @@ TEST_WITH(a_loop_can_be_destroyed_in_every_state, NULL, end_rig) {
             wait_for_ticks(10);
         }
         if (in == LOST) {
-            wait_until_absent();
+            WAIT_FOR(rig_stats(&r).absent);
         } else if (in == DONE) {
             knurl_loop_stop(r.loop);
         }
@@ -148,8 +140,7 @@ TEST_WITH(a_loop_can_be_destroyed_in_every_state, NULL, end_rig) {
 }
 
 /* A loss noticed while writing is handled like one noticed while reading. */
-TEST_WITH(a_device_that_is_lost_while_it_is_written_is_halted_and_its_force_resumes, NULL, end_rig) {
-    init();
+TEST_WITH(a_device_that_is_lost_while_it_is_written_is_halted_and_its_force_resumes, begin_rig, end_rig) {
     r.desc.reconnect = 1;
     r.writes_left = 70;
     rig_create(&r);
@@ -157,27 +148,22 @@ TEST_WITH(a_device_that_is_lost_while_it_is_written_is_halted_and_its_force_resu
     rig_check_halted(&r);
     assert_int_equal(knurl_loop_step(r.loop, 99), KNURL_OK);
     check_ramp_up(70);
-    assert_int_equal(next_event(), KNURL_FAULT_LOST);
-    assert_int_equal(next_event(), KNURL_FAULT_RECONNECTED);
-    assert_int_equal(next_event(), KNURL_FAULT_RESUMED);
-    assert_int_equal(next_event(), 0);
+    CHECK_EVENTS(KNURL_FAULT_LOST, KNURL_FAULT_RECONNECTED, KNURL_FAULT_RESUMED);
 }
 
 /* --- beats without a position --- */
 
-TEST_WITH(before_the_first_tick_nothing_is_resumed, NULL, end_rig) {
-    init();
+TEST_WITH(before_the_first_tick_nothing_is_resumed, begin_rig, end_rig) {
     extra.not_ready_to = 12;
     rig_create(&r);
     assert_int_equal(knurl_loop_step(r.loop, 100), KNURL_OK);
     assert_int_equal(rig_stats(&r).absences, 12);
     assert_int_equal(rig_stats(&r).ticks, 88);
-    assert_int_equal(next_event(), 0);
+    CHECK_EVENTS(0);
     check_ramp_up(12);
 }
 
-TEST_WITH(a_beat_without_a_position_writes_no_force_and_asks_for_none, NULL, end_rig) {
-    init();
+TEST_WITH(a_beat_without_a_position_writes_no_force_and_asks_for_none, begin_rig, end_rig) {
     extra.not_ready_from = 50;
     extra.not_ready_to = 60;
     rig_create(&r);
@@ -190,8 +176,7 @@ TEST_WITH(a_beat_without_a_position_writes_no_force_and_asks_for_none, NULL, end
         CHECK_SAME(r.written[k][1], 0.0L);
     }
     check_ramp_up(60);
-    assert_int_equal(next_event(), KNURL_FAULT_RESUMED);
-    assert_int_equal(next_event(), 0);
+    CHECK_EVENTS(KNURL_FAULT_RESUMED);
     assert_int_equal(rig_stats(&r).absent, 0);
 }
 
@@ -226,8 +211,7 @@ static knurl_result write_and_see_halt(knurl_device *device, const double force[
 }
 
 /* An I/O thread still has the old force, which must not be played between the halt and the ramp. */
-TEST_WITH(a_halt_lasts_until_the_force_that_begins_the_ramp_is_written, NULL, end_rig) {
-    init();
+TEST_WITH(a_halt_lasts_until_the_force_that_begins_the_ramp_is_written, begin_rig, end_rig) {
     extra_driver.write = write_and_see_halt;
     surface_parts parts = surface_plane();
     SCOPED_SCENE *scene = scene_of(&parts);
@@ -244,14 +228,12 @@ TEST_WITH(a_halt_lasts_until_the_force_that_begins_the_ramp_is_written, NULL, en
     rig_destroy(&r);
 }
 
-TEST_WITH(after_a_halt_the_force_comes_back_by_the_ramp, NULL, end_rig) {
-    init();
+TEST_WITH(after_a_halt_the_force_comes_back_by_the_ramp, begin_rig, end_rig) {
     rig_create(&r);
     assert_int_equal(knurl_loop_step(r.loop, 50), KNURL_OK);
     knurl_device_halt(&r.device);
     assert_int_equal(knurl_loop_step(r.loop, 50), KNURL_OK);
     CHECK_SAME(r.written[49][1], 1.0L);
     check_ramp_up(50);
-    assert_int_equal(next_event(), KNURL_FAULT_RESUMED);
-    assert_int_equal(next_event(), 0);
+    CHECK_EVENTS(KNURL_FAULT_RESUMED);
 }

@@ -103,6 +103,15 @@ static void report_numbers(int from, int to) {
     }
 }
 
+/* The next events have the values from `from` to `to` - 1. */
+static void check_numbers(int from, int to) {
+    knurl_device_event event;
+    for (int number = from; number < to; number++) {
+        assert_int_equal(knurl_events_next(&ring, &event), 1);
+        CHECK_SAME(event.value, (long double)number);
+    }
+}
+
 TEST(events_come_oldest_first_with_the_time_at_which_they_were_seen) {
     knurl_device_event event;
     memset(&ring, 0, sizeof ring);
@@ -132,14 +141,10 @@ TEST(the_ring_keeps_the_latest_64_and_counts_all) {
         memset(&ring, 0, sizeof ring);
         report_numbers(0, bursts[i]);
         assert_int_equal(ring.head, bursts[i]);
-        for (int number = first; number < bursts[i]; number++) {
-            assert_int_equal(knurl_events_next(&ring, &event), 1);
-            CHECK_SAME(event.value, (long double)number);
-        }
+        check_numbers(first, bursts[i]);
         assert_int_equal(knurl_events_next(&ring, &event), 0);
         report_numbers(-5, -4);
-        assert_int_equal(knurl_events_next(&ring, &event), 1);
-        CHECK_SAME(event.value, -5.0L);
+        check_numbers(-5, -4);
     }
 }
 
@@ -211,10 +216,7 @@ TEST(a_writer_that_is_held_up_for_a_whole_ring_costs_one_event_and_tears_none) {
         assert_in_range(count, 63, 64);
         CHECK_SAME(event.value, 99.0L);
         report_numbers(100, 300); /* the slot works as before */
-        for (int number = 236; number < 300; number++) {
-            assert_int_equal(knurl_events_next(&ring, &event), 1);
-            CHECK_SAME(event.value, (long double)number);
-        }
+        check_numbers(236, 300);
     }
 }
 

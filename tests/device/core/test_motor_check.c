@@ -62,59 +62,62 @@ typedef struct bench {
     knurl_loop *loop;
 } bench;
 
+static bench b; /* begun by a test */
+
 /* A hand rests 4 mm below the floor. */
-static void begin(bench *b, const char *options, double sign, uint32_t motors_known) {
+static void begin(const char *options, double sign, uint32_t motors_known) {
     char uri[256];
     knurl_stroke_desc stroke;
     knurl_device_functions f;
     knurl_loop_desc desc;
-    memset(b, 0, sizeof *b);
-    b->device.sign[0] = b->device.sign[2] = 1.0;
-    b->device.sign[1] = sign;
+    memset(&b, 0, sizeof b);
+    b.device.sign[0] = b.device.sign[2] = 1.0;
+    b.device.sign[1] = sign;
     (void)snprintf(uri, sizeof uri, "fake:?preset=falcon&%s", options);
-    assert_int_equal(knurl_device_open(uri, &b->device.inner), KNURL_OK);
+    assert_int_equal(knurl_device_open(uri, &b.device.inner), KNURL_OK);
     knurl_stroke_desc_init(&stroke, sizeof stroke);
     stroke.stroke = KNURL_STROKE_REST;
     stroke.depth = 0.004;
-    assert_int_equal(knurl_fake_set_stroke(b->device.inner, &stroke), KNURL_OK);
+    assert_int_equal(knurl_fake_set_stroke(b.device.inner, &stroke), KNURL_OK);
     knurl_device_functions_init(&f, sizeof f);
-    f.user = &b->device;
+    f.user = &b.device;
     f.get_info = wired_info;
     f.start = wired_start;
     f.read = wired_read;
     f.write = wired_write;
     f.motors_known = motors_known;
-    assert_int_equal(knurl_device_open_functions(&f, &b->outer), KNURL_OK);
+    assert_int_equal(knurl_device_open_functions(&f, &b.outer), KNURL_OK);
     knurl_loop_desc_init(&desc, sizeof desc);
-    desc.device = b->outer;
+    desc.device = b.outer;
     desc.force_callback = floor_force;
-    assert_int_equal(knurl_loop_create(&desc, &b->loop), KNURL_OK);
+    assert_int_equal(knurl_loop_create(&desc, &b.loop), KNURL_OK);
 }
 
-static void end(bench *b) {
-    knurl_loop_destroy(b->loop);
-    knurl_device_close(b->outer);
-    knurl_device_close(b->device.inner);
+static int end(void **state) {
+    (void)state;
+    knurl_loop_destroy(b.loop);
+    knurl_device_close(b.outer);
+    knurl_device_close(b.device.inner);
+    return 0;
 }
 
-/* The first fault; *count: number of events. */
-static int32_t first_fault(bench *b, int *count) {
+static int count; /* of the events that first_fault() removed */
+
+static int32_t first_fault(void) {
     knurl_device_event event;
     int32_t first = 0;
-    *count = 0;
-    while (knurl_device_next_event(b->outer, &event)) {
-        first = *count == 0 ? event.code : first;
-        ++*count;
+    count = 0;
+    while (knurl_device_next_event(b.outer, &event)) {
+        first = count == 0 ? event.code : first;
+        count++;
     }
     return first;
 }
 
-TEST(a_backwards_motor_is_reported_with_its_axis_and_gets_no_force_until_the_device_is_opened_again) {
-    bench b;
-    int count = 0;
-    begin(&b, "hand_stiffness=100&hand_damping=1", -1.0, 0);
+TEST_WITH(a_backwards_motor_is_reported_with_its_axis_and_gets_no_force_until_the_device_is_opened_again, NULL, end) {
+    begin("hand_stiffness=100&hand_damping=1", -1.0, 0);
     assert_int_equal(knurl_loop_step(b.loop, 1500), KNURL_OK);
-    assert_int_equal(first_fault(&b, &count), KNURL_FAULT_BACKWARDS_Y);
+    assert_int_equal(first_fault(), KNURL_FAULT_BACKWARDS_Y);
     assert_int_equal(count, 1); /* and no "resumed" */
     assert_true(b.device.strongest <= 1.0 + 1e-12);
     assert_true(b.device.deepest < 0.025);
@@ -124,33 +127,26 @@ TEST(a_backwards_motor_is_reported_with_its_axis_and_gets_no_force_until_the_dev
     assert_true(b.device.sent[0] == 0.0 && b.device.sent[1] == 0.0 && b.device.sent[2] == 0.0);
     assert_string_equal(knurl_fault_name(KNURL_FAULT_BACKWARDS_Y), "backwards_y");
     assert_non_null(strstr(knurl_fault_string(KNURL_FAULT_BACKWARDS_Y), "along y: a motor is wired or signed"));
-    end(&b);
 }
 
-TEST(motors_that_are_right_get_the_whole_force_after_some_pulses) {
-    bench b;
-    int count = 0;
-    begin(&b, "", 1.0, 0);
+TEST_WITH(motors_that_are_right_get_the_whole_force_after_some_pulses, NULL, end) {
+    begin("", 1.0, 0);
     assert_int_equal(knurl_loop_step(b.loop, 300), KNURL_OK);
     assert_true(b.device.strongest <= 1.0 + 1e-12);
     assert_int_equal(knurl_loop_step(b.loop, 1500), KNURL_OK);
-    assert_int_equal(first_fault(&b, &count), 0);
+    assert_int_equal(first_fault(), 0);
     assert_true(b.device.sent[1] > 1.2); /* 4 mm deep: 700 N/m of the hand against 500 N/m */
-    end(&b);
 }
 
-TEST(motors_that_are_known_are_not_checked) {
-    bench b;
-    int count = 0;
-    begin(&b, "", 1.0, 1);
+TEST_WITH(motors_that_are_known_are_not_checked, NULL, end) {
+    begin("", 1.0, 1);
     int pulses = 0;
     for (int i = 0; i < 600; i++) {
         assert_int_equal(knurl_loop_step(b.loop, 1), KNURL_OK);
         pulses += i > 300 && b.device.sent[1] == 0.0;
     }
     assert_int_equal(pulses, 0);
-    assert_int_equal(first_fault(&b, &count), 0);
-    end(&b);
+    assert_int_equal(first_fault(), 0);
 }
 
 TEST(forces_that_do_no_harm_are_sent_as_they_are) {
@@ -215,10 +211,7 @@ typedef struct verdict {
 static double noise(uint64_t *random) { /* variance 1 */
     double sum = -6.0;
     for (int i = 0; i < 12; i++) {
-        *random ^= *random << 13;
-        *random ^= *random >> 7;
-        *random ^= *random << 17;
-        sum += (double)(*random >> 11) / 9007199254740992.0;
+        sum += random_between(random, 0.0, 1.0);
     }
     return sum;
 }
@@ -315,12 +308,12 @@ static verdict run(trial t) {
     return v;
 }
 
-typedef struct count {
+typedef struct tally {
     int runs, faults, passed;
     double after, moved; /* sums of those found */
-} count;
+} tally;
 
-static void add(count *c, const verdict *v) {
+static void add(tally *c, const verdict *v) {
     c->runs++;
     c->faults += v->fault != 0;
     c->passed += v->passed;
@@ -329,11 +322,11 @@ static void add(count *c, const verdict *v) {
 }
 
 /* Tries each device, floor and motion in a hand. */
-static count try_hand(const hand *held, int motion, int wiring) {
+static tally try_hand(const hand *held, int motion, int wiring) {
     static const double floors[] = {300.0, 1500.0};
     const char *asked = getenv("KNURL_TEST_RUNS"); /* runs of each kind */
     const int runs = asked ? (int)strtol(asked, NULL, 10) : 1;
-    count c = {0};
+    tally c = {0};
     for (size_t d = 0; d < COUNT_OF(makers); d++) {
         for (size_t k = 0; k < COUNT_OF(floors); k++) {
             for (int r = 0; r < runs; r++) {
@@ -360,8 +353,8 @@ static int is_idle(const hand *held, int motion) {
 }
 
 TEST(no_hand_is_taken_for_a_backwards_motor_and_a_light_one_does_not_hide_it) {
-    count all = {0};
-    count loose = {0}; /* free, light and soft hands, in which the handle would run away */
+    tally all = {0};
+    tally loose = {0}; /* free, light and soft hands, in which the handle would run away */
     (void)printf(
         "hand     motion      right: runs faults passed ms | backwards: faults passed ms mm | aside: faults\n");
     for (size_t h = 0; h < COUNT_OF(hands); h++) {
@@ -369,10 +362,10 @@ TEST(no_hand_is_taken_for_a_backwards_motor_and_a_light_one_does_not_hide_it) {
             if (is_idle(&hands[h], motion)) {
                 continue;
             }
-            const count right = try_hand(&hands[h], motion, 0);
-            const count wrong = try_hand(&hands[h], motion, 1);
-            const count aside = try_hand(&hands[h], motion, 2);
-            const count more = try_hand(&hands[h], motion, 3);
+            const tally right = try_hand(&hands[h], motion, 0);
+            const tally wrong = try_hand(&hands[h], motion, 1);
+            const tally aside = try_hand(&hands[h], motion, 2);
+            const tally more = try_hand(&hands[h], motion, 3);
             (void)printf("%-8s %-10s %4d %4d %4d %6.0f | %4d %4d %6.0f %5.1f | %4d %4d\n", hands[h].name,
                          motions[motion], right.runs, right.faults, right.passed,
                          1e3 * right.after / fmax(1, right.passed), wrong.faults, wrong.passed,

@@ -3,12 +3,6 @@
 
 #include "device/quaternion.h"
 
-#include <stdlib.h>
-
-static double random_number(void) {
-    return 2.0 * (double)rand() / RAND_MAX - 1.0;
-}
-
 /* The columns of the rotation by a unit quaternion: how it turns the three axes, v + 2 w (u x v) + 2 u x (u x v). */
 static void turn_axes(const double q[4], double columns[3][3]) {
     for (int axis = 0; axis < 3; axis++) {
@@ -25,13 +19,14 @@ static void turn_axes(const double q[4], double columns[3][3]) {
 }
 
 TEST(the_quaternion_of_a_rotation_by_any_angle_is_found) {
+    uint64_t random = 1;
     for (int turn = 0; turn < 10000; turn++) {
         double q[4];
         double found[4];
         double columns[3][3];
         double square = 0.0;
         for (int i = 0; i < 4; i++) { /* every eighth is a half turn, every other eighth about an axis */
-            q[i] = (turn % 8 == 0 && i == 3) || (turn % 8 == 1 && i < 2) ? 0.0 : random_number();
+            q[i] = (turn % 8 == 0 && i == 3) || (turn % 8 == 1 && i < 2) ? 0.0 : random_between(&random, -1.0, 1.0);
             square += q[i] * q[i];
         }
         for (int i = 0; i < 4; i++) {

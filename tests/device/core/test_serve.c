@@ -159,7 +159,8 @@ static void force(uint64_t tick, const knurl_device_sample *sample, double f[3],
     }
 }
 
-static void begin(void) {
+static int begin(void **state) {
+    (void)state;
     memset(&s, 0, sizeof s);
     memset(&t, 0, sizeof t);
     knurl_device_init(&s.device, &servo_driver);
@@ -170,6 +171,7 @@ static void begin(void) {
     t.desc.watchdog_s = 0.0;
     t.stop_at = UINT64_MAX;
     s.thread = start_scheduler(&s);
+    return 0;
 }
 
 static int end(void **state) {
@@ -181,30 +183,23 @@ static int end(void **state) {
     return s.strangers != 0;
 }
 
+/* For a test's next case. */
+static void restart(void) {
+    assert_int_equal(end(NULL), 0);
+    (void)begin(NULL);
+}
+
 static void start(void) {
     assert_int_equal(knurl_loop_create(&t.desc, &t.loop), KNURL_OK);
     assert_int_equal(knurl_loop_start(t.loop), KNURL_OK);
 }
 
 static knurl_loop_stats stats(void) {
-    const knurl_loop_stats made = loop_stats(t.loop);
-    return made;
+    return loop_stats(t.loop);
 }
 
 static void wait_for_ticks(uint64_t ticks) {
-    const int64_t until = now_ns() + INT64_C(10000000000);
-    while (stats().ticks < ticks && now_ns() < until) {
-        sleep_ns(500000);
-    }
-    assert_true(stats().ticks >= ticks);
-}
-
-static void wait_until_absent(void) {
-    const int64_t until = now_ns() + INT64_C(10000000000);
-    while (!stats().absent && now_ns() < until) {
-        sleep_ns(500000);
-    }
-    assert_int_equal(stats().absent, 1);
+    WAIT_FOR(stats().ticks >= ticks);
 }
 
 /* After the loop's end its tick is not called any more. */
@@ -214,8 +209,7 @@ static void check_silence(void) {
     assert_int_equal(knurl_load_acquire(&s.ticks), ticks);
 }
 
-TEST_WITH(a_device_with_a_servo_thread_runs_the_loop_on_it, NULL, end) {
-    begin();
+TEST_WITH(a_device_with_a_servo_thread_runs_the_loop_on_it, begin, end) {
     t.desc.tick_limit = 200;
     start();
     assert_int_equal(knurl_loop_wait(t.loop, 10.0), 1);
@@ -234,8 +228,7 @@ int __wrap_knurl_system_make_realtime(void) {
     return 1;
 }
 
-TEST_WITH(real_time_rights_are_asked_for_the_servo_thread, NULL, end) {
-    begin();
+TEST_WITH(real_time_rights_are_asked_for_the_servo_thread, begin, end) {
     asked_for = 0;
     t.desc.tick_limit = 20;
     start();
@@ -244,8 +237,7 @@ TEST_WITH(real_time_rights_are_asked_for_the_servo_thread, NULL, end) {
     assert_true(asked_for != 0 && asked_for == s.served_by);
 }
 
-TEST_WITH(it_cannot_be_stepped_and_only_at_its_own_rate, NULL, end) {
-    begin();
+TEST_WITH(it_cannot_be_stepped_and_only_at_its_own_rate, begin, end) {
     knurl_loop *none = NULL;
     t.desc.update_rate_hz = 500.0;
     CHECK_REFUSED(knurl_loop_create(&t.desc, &none), KNURL_ERROR_UNSUPPORTED, none);
@@ -256,22 +248,19 @@ TEST_WITH(it_cannot_be_stepped_and_only_at_its_own_rate, NULL, end) {
     assert_int_equal(s.ticks, 0);
 }
 
-TEST_WITH(calls_that_come_late_are_counted_and_told, NULL, end) {
-    knurl_device_event event = {0};
-    begin();
+TEST_WITH(calls_that_come_late_are_counted_and_told, begin, end) {
     start();
     wait_for_ticks(20);
     const uint64_t before = stats().overruns;
     knurl_store_release(&s.stall_ns, INT64_C(30000000));
-    assert_int_equal(wait_for_event(&s.device, KNURL_FAULT_OVERRUN, &event), 1);
+    const knurl_device_event event = wait_for_event(&s.device, KNURL_FAULT_OVERRUN);
     CHECK_CLOSE(event.value, 0.030, 1e-9);
     assert_int_equal(stats().overruns, before + 1);
     CHECK_CLOSE(stats().jitter_ns.max, 30e6, 1.0);
 }
 
-TEST_WITH(a_stop_from_outside_and_one_from_the_callback_both_end_it, NULL, end) {
+TEST_WITH(a_stop_from_outside_and_one_from_the_callback_both_end_it, begin, end) {
     for (int i = 0; i < 2; i++) {
-        begin();
         t.stop_at = i ? 30 : UINT64_MAX;
         start();
         if (i) {
@@ -284,55 +273,47 @@ TEST_WITH(a_stop_from_outside_and_one_from_the_callback_both_end_it, NULL, end) 
         assert_int_equal(stats().state, KNURL_LOOP_DONE);
         check_silence();
         CHECK_SAME(knurl_load_double(&s.motor), 0.0L);
-        assert_int_equal(end(NULL), 0);
+        restart();
     }
-    begin(); /* for the teardown */
 }
 
-TEST_WITH(a_loss_without_reconnect_ends_it, NULL, end) {
-    begin();
+TEST_WITH(a_loss_without_reconnect_ends_it, begin, end) {
     start();
     wait_for_ticks(20);
     knurl_store_release(&s.unplugged, 1u);
     assert_int_equal(knurl_loop_wait(t.loop, 10.0), 1);
     assert_int_equal(stats().state, KNURL_LOOP_LOST);
     check_silence();
-    assert_int_equal(next_code(&s.device, KNURL_FAULT_OVERRUN), KNURL_FAULT_LOST);
-    assert_int_equal(next_code(&s.device, KNURL_FAULT_OVERRUN), 0);
+    CHECK_CODES(&s.device, KNURL_FAULT_OVERRUN, KNURL_FAULT_LOST);
 }
 
-TEST_WITH(a_loss_with_reconnect_is_waited_out, NULL, end) {
-    begin();
+TEST_WITH(a_loss_with_reconnect_is_waited_out, begin, end) {
     t.desc.reconnect = 1;
     s.refuse_reopens = 1;
     start();
     wait_for_ticks(20);
     knurl_store_release(&s.unplugged, 1u);
-    wait_until_absent();
+    WAIT_FOR(stats().absent);
     const uint64_t before = stats().ticks;
     wait_for_ticks(before + 50);
     assert_int_equal(stats().state, KNURL_LOOP_RUNNING);
     assert_int_equal(knurl_load_acquire(&s.reopens), 2);
-    assert_int_equal(next_code(&s.device, KNURL_FAULT_OVERRUN), KNURL_FAULT_LOST);
-    assert_int_equal(next_code(&s.device, KNURL_FAULT_OVERRUN), KNURL_FAULT_RECONNECTED);
-    assert_int_equal(next_code(&s.device, KNURL_FAULT_OVERRUN), KNURL_FAULT_RESUMED);
-    assert_int_equal(next_code(&s.device, KNURL_FAULT_OVERRUN), 0);
+    CHECK_CODES(&s.device, KNURL_FAULT_OVERRUN, KNURL_FAULT_LOST, KNURL_FAULT_RECONNECTED, KNURL_FAULT_RESUMED);
     knurl_loop_stop(t.loop);
     check_silence();
 }
 
 /* The time without a device does not count as lateness, and a long reopening does not count as a stall of the haptic
  * thread. */
-TEST_WITH(the_time_that_it_was_away_is_no_fault_of_the_loops, NULL, end) {
+TEST_WITH(the_time_that_it_was_away_is_no_fault_of_the_loops, begin, end) {
     knurl_device_event event;
-    begin();
     t.desc.reconnect = 1;
     t.desc.watchdog_s = 0.1;
     s.reopen_takes_ns = 300000000;
     start();
     wait_for_ticks(20);
     knurl_store_release(&s.unplugged, 1u);
-    wait_until_absent();
+    WAIT_FOR(stats().absent);
     wait_for_ticks(stats().ticks + 50);
     knurl_loop_stop(t.loop);
     while (knurl_device_next_event(&s.device, &event)) {
@@ -342,8 +323,7 @@ TEST_WITH(the_time_that_it_was_away_is_no_fault_of_the_loops, NULL, end) {
     assert_true(stats().jitter_ns.max < 0.25e9);
 }
 
-TEST_WITH(a_stop_from_the_callback_only_asks_also_when_the_servo_thread_is_another_one_by_then, NULL, end) {
-    begin();
+TEST_WITH(a_stop_from_the_callback_only_asks_also_when_the_servo_thread_is_another_one_by_then, begin, end) {
     t.desc.reconnect = 1;
     s.changes_thread = 1;
     t.stop_at = 60;
@@ -355,16 +335,15 @@ TEST_WITH(a_stop_from_the_callback_only_asks_also_when_the_servo_thread_is_anoth
     assert_int_equal(knurl_load_acquire(&s.reopens), 1);
 }
 
-TEST_WITH(a_stop_while_it_is_lost_ends_it_though_nobody_calls_the_tick, NULL, end) {
+TEST_WITH(a_stop_while_it_is_lost_ends_it_though_nobody_calls_the_tick, begin, end) {
     for (int i = 0; i < 6; i++) {
-        begin();
         t.desc.reconnect = 1;
         s.refuse_reopens = UINT64_MAX;
         start();
         wait_for_ticks(10);
         knurl_store_release(&s.unplugged, 1u);
         if (i % 3 == 0) {
-            wait_until_absent(); /* otherwise the two race */
+            WAIT_FOR(stats().absent); /* otherwise the two race */
         } else if (i % 3 == 1) {
             sleep_ns(1000000);
         }
@@ -374,31 +353,26 @@ TEST_WITH(a_stop_while_it_is_lost_ends_it_though_nobody_calls_the_tick, NULL, en
             assert_true(now_ns() - asked < 2000000000);
             assert_int_equal(stats().state, KNURL_LOOP_DONE);
         }
-        assert_int_equal(end(NULL), 0); /* destroys it */
+        restart(); /* destroys it */
         assert_true(now_ns() - asked < 2000000000);
     }
-    begin();
 }
 
 /* A caller that waited for the end may destroy the loop. */
-TEST_WITH(a_loop_is_not_over_while_its_device_is_still_in_a_tick, NULL, end) {
-    begin();
+TEST_WITH(a_loop_is_not_over_while_its_device_is_still_in_a_tick, begin, end) {
     t.desc.reconnect = 1;
     s.refuse_reopens = UINT64_MAX;
     s.lingers_ns = 300000000;
     start();
     wait_for_ticks(20);
     knurl_store_release(&s.unplugged, 1u);
-    while (!knurl_load_acquire(&s.device.lost)) {
-        sleep_ns(100000);
-    }
+    WAIT_FOR(knurl_load_acquire(&s.device.lost));
     knurl_loop_stop(t.loop);
     assert_true(knurl_load_acquire(&s.inside) == 0);
     check_silence();
 }
 
-TEST_WITH(destroying_it_at_once_is_fine_and_so_is_another_loop_after_it, NULL, end) {
-    begin();
+TEST_WITH(destroying_it_at_once_is_fine_and_so_is_another_loop_after_it, begin, end) {
     for (int turn = 0; turn < 10; turn++) {
         start();
         knurl_loop_destroy(t.loop);
@@ -410,16 +384,15 @@ TEST_WITH(destroying_it_at_once_is_fine_and_so_is_another_loop_after_it, NULL, e
 }
 
 /* Also while the device is lost and the tick is not called. */
-TEST_WITH(a_close_ends_the_loop_and_its_destroy_closes, NULL, end) {
+TEST_WITH(a_close_ends_the_loop_and_its_destroy_closes, begin, end) {
     for (int lost = 0; lost < 2; lost++) {
-        begin();
         t.desc.reconnect = 1;
         s.refuse_reopens = UINT64_MAX;
         start();
         wait_for_ticks(20);
         if (lost) {
             knurl_store_release(&s.unplugged, 1u);
-            wait_until_absent();
+            WAIT_FOR(stats().absent);
         }
         knurl_device_close(&s.device);
         assert_int_equal(knurl_loop_wait(t.loop, 10.0), 1);
@@ -429,6 +402,6 @@ TEST_WITH(a_close_ends_the_loop_and_its_destroy_closes, NULL, end) {
         assert_int_equal(s.closes, 0);
         assert_int_equal(end(NULL), 0); /* destroys it */
         assert_int_equal(s.closes, 1);
+        (void)begin(NULL);
     }
-    begin();
 }
