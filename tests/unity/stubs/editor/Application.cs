@@ -21,15 +21,10 @@ namespace UnityEditor
         public delegate void CallbackFunction();
 
         public static event Action<PlayModeStateChange> playModeStateChanged;
-        public static CallbackFunction update;
         public static CallbackFunction delayCall;
         public static event Action quitting;
         public static bool isPlaying { get { return Application.isPlaying; } }
-        public static bool isPlayingOrWillChangePlaymode { get { return Application.isPlaying; } }
-        public static bool isPaused { get; set; }
         public static double timeSinceStartup { get { return Time.realtimeSinceStartup; } }
-        public static void QueuePlayerLoopUpdate() { }
-        public static void RepaintHierarchyWindow() { }
 
         static EditorApplication()
         {
@@ -62,20 +57,6 @@ namespace UnityEditor
             }
         }
 
-        public static void Update()
-        {
-            CallbackFunction late = delayCall;
-            delayCall = null;
-            if (late != null)
-            {
-                late();
-            }
-            if (update != null)
-            {
-                update();
-            }
-        }
-
         public static void Quit()
         {
             if (quitting != null)
@@ -90,7 +71,6 @@ namespace UnityEditor
         public delegate void AssemblyReloadCallback();
 
         public static event AssemblyReloadCallback beforeAssemblyReload;
-        public static event AssemblyReloadCallback afterAssemblyReload;
 
         static AssemblyReloadEvents()
         {
@@ -102,19 +82,5 @@ namespace UnityEditor
                 }
             };
         }
-
-        public static void After()
-        {
-            if (afterAssemblyReload != null)
-            {
-                afterAssemblyReload();
-            }
-        }
-    }
-
-    public static class SessionState
-    {
-        public static bool GetBool(string key, bool otherwise) { return EditorPrefs.GetBool("session " + key, otherwise); }
-        public static void SetBool(string key, bool value) { EditorPrefs.SetBool("session " + key, value); }
     }
 }

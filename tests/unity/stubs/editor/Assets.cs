@@ -123,8 +123,6 @@ namespace UnityEditor
             return found;
         }
 
-        public static void SaveAssets() { }
-        public static void Refresh() { }
         public static void StartAssetEditing() { }
         public static void StopAssetEditing() { }
         public static readonly List<string> Imported = new List<string>();
@@ -160,12 +158,6 @@ namespace UnityEditor
         {
             UnityEngine.Object found;
             return Assets.TryGetValue(path, out found) ? found as T : null;
-        }
-
-        public static UnityEngine.Object[] LoadAllAssetsAtPath(string path)
-        {
-            UnityEngine.Object found = LoadAssetAtPath<UnityEngine.Object>(path);
-            return found == null ? new UnityEngine.Object[0] : new[] { found };
         }
 
         public static string GetAssetPath(UnityEngine.Object asset)
@@ -205,8 +197,6 @@ namespace UnityEditor
 
     public class AssetImporter : UnityEngine.Object
     {
-        public string assetPath { get; set; }
-        public string userData { get; set; }
         /// The importer of a path, set by a test.
         public static readonly Dictionary<string, AssetImporter> Importers = new Dictionary<string, AssetImporter>();
         public int Reimports;
@@ -242,10 +232,7 @@ namespace UnityEditor
     {
         public AssetImporters.AssetImportContext context { get; set; }
         public string assetPath { get; set; }
-        public AssetImporter assetImporter { get; set; }
         public virtual uint GetVersion() { return 0; }
         public virtual int GetPostprocessOrder() { return 0; }
-        public void LogWarning(string warning) { Debug.LogWarning(warning); }
-        public void LogError(string error) { Debug.LogError(error); }
     }
 }

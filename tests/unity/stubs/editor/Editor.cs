@@ -11,9 +11,7 @@ namespace UnityEditor
     public sealed class CustomEditor : Attribute
     {
         public Type InspectedType { get; private set; }
-        public bool isFallback { get; set; }
         public CustomEditor(Type inspectedType) { InspectedType = inspectedType; }
-        public CustomEditor(Type inspectedType, bool editorForChildClasses) { InspectedType = inspectedType; }
     }
 
     [AttributeUsage(AttributeTargets.Class)]
@@ -64,13 +62,11 @@ namespace UnityEditor
     {
         public GizmoType drawOptions { get; private set; }
         public DrawGizmo(GizmoType gizmo) { drawOptions = gizmo; }
-        public DrawGizmo(GizmoType gizmo, Type drawnType) { drawOptions = gizmo; }
     }
 
     public sealed class MenuCommand
     {
         public UnityEngine.Object context;
-        public int userData;
         public MenuCommand(UnityEngine.Object context) { this.context = context; }
     }
 
@@ -81,7 +77,6 @@ namespace UnityEditor
         SerializedObject serialized;
 
         public UnityEngine.Object target { get { return held.Length > 0 ? held[0] : null; } }
-        public UnityEngine.Object[] targets { get { return held; } }
         public SerializedObject serializedObject
         {
             get { return serialized ?? (serialized = new SerializedObject(held)); }
@@ -113,36 +108,16 @@ namespace UnityEditor
             return null;
         }
 
-        public void Repaint() { }
-
         public bool DrawDefaultInspector()
         {
             EditorGUILayout.Drawn.Add("default inspector");
             return false;
         }
-
-        public static void DrawPropertiesExcluding(SerializedObject obj, params string[] excluded)
-        {
-            EditorGUILayout.Drawn.Add("default inspector");
-        }
-    }
-
-    public class EditorWindow : ScriptableObject
-    {
-        public Rect position { get; set; }
-        public Vector2 minSize { get; set; }
-        public GUIContent titleContent { get; set; }
-        public static T GetWindow<T>(string title) where T : EditorWindow { return CreateInstance<T>(); }
-        public static T GetWindow<T>() where T : EditorWindow { return CreateInstance<T>(); }
-        public void Show() { }
-        public void Close() { }
-        public void Repaint() { }
     }
 
     public class PropertyDrawer
     {
         public virtual void OnGUI(Rect position, SerializedProperty property, GUIContent label) { }
-        public virtual float GetPropertyHeight(SerializedProperty property, GUIContent label) { return 18f; }
     }
 
     /// The last one shown; a test chooses from it.
@@ -166,10 +141,6 @@ namespace UnityEditor
 
     public static class EditorGUIUtility
     {
-        public static float singleLineHeight { get { return 18f; } }
-        public static float standardVerticalSpacing { get { return 2f; } }
-        public static float labelWidth { get; set; }
-        public static bool isProSkin { get { return true; } }
         public static void PingObject(UnityEngine.Object o) { }
     }
 
@@ -187,24 +158,10 @@ namespace UnityEditor
         }
 
         public static void HelpBox(string message, MessageType type) { Drawn.Add(type + ": " + message); }
-        public static void LabelField(string label) { Drawn.Add("label " + label); }
         public static void LabelField(string label, string value) { Drawn.Add("label " + label + ": " + value); }
-        public static void LabelField(GUIContent label, GUIContent value) { LabelField(label.text, value.text); }
-        public static void LabelField(GUIContent label) { LabelField(label.text); }
-        public static void Space() { }
-        public static void Space(float width) { }
-        public static float FloatField(string label, float value) { return Field(label, value); }
         public static float FloatField(GUIContent label, float value) { return Field(label.text, value); }
         public static int MaskField(GUIContent label, int mask, string[] names) { return Field(label.text, mask); }
-        public static string TextField(string label, string value) { return Field(label, value); }
-        public static bool Toggle(string label, bool value) { return Field(label, value); }
-        public static bool Toggle(GUIContent label, bool value) { return Field(label.text, value); }
-        public static int Popup(string label, int index, string[] names) { return Field(label, index); }
-        public static int Popup(GUIContent label, int index, GUIContent[] names) { return Field(label.text, index); }
-        public static bool Foldout(bool open, string label) { return Field(label, open); }
         public static bool Foldout(bool open, string label, bool toggles) { return Field(label, open); }
-        public static Rect GetControlRect(bool hasLabel, float height) { return new Rect(0f, 0f, 300f, height); }
-        public static Rect GetControlRect() { return new Rect(0f, 0f, 300f, 18f); }
 
         public static bool PropertyField(SerializedProperty property, params GUILayoutOption[] options)
         {
@@ -228,21 +185,13 @@ namespace UnityEditor
             Drawn.Add("drop-down " + content.text);
             return Answers.ContainsKey(content.text);
         }
-
-        public static void BeginHorizontal(params GUILayoutOption[] options) { }
-        public static void EndHorizontal() { }
-        public static void BeginVertical(params GUILayoutOption[] options) { }
-        public static void EndVertical() { }
     }
 
     /// Changes and switches are not simulated.
     public static class EditorGUI
     {
-        public static int indentLevel { get; set; }
-        public static bool showMixedValue { get; set; }
         public static void BeginChangeCheck() { }
         public static bool EndChangeCheck() { return EditorGUILayout.Answers.Count > 0; }
-        public static void DrawRect(Rect rect, Color color) { EditorGUILayout.Drawn.Add("rect"); }
         public static GUIContent BeginProperty(Rect rect, GUIContent label, SerializedProperty property) { return label; }
         public static void EndProperty() { }
 
@@ -255,22 +204,6 @@ namespace UnityEditor
         {
             return EditorGUILayout.FloatField(label, value);
         }
-
-        public static void LabelField(Rect rect, string text) { EditorGUILayout.Drawn.Add("label " + text); }
-        public static void BeginDisabledGroup(bool disabled) { }
-        public static void EndDisabledGroup() { }
-
-        public sealed class DisabledScope : IDisposable
-        {
-            public DisabledScope(bool disabled) { }
-            public void Dispose() { }
-        }
-
-        public sealed class IndentLevelScope : IDisposable
-        {
-            public IndentLevelScope() { indentLevel++; }
-            public void Dispose() { indentLevel--; }
-        }
     }
 
     /// Records drawing, like Gizmos.
@@ -281,13 +214,6 @@ namespace UnityEditor
         public static UnityEngine.Rendering.CompareFunction zTest { get; set; }
         static Handles() { color = Color.white; matrix = Matrix4x4.identity; zTest = UnityEngine.Rendering.CompareFunction.Always; }
         public static void DrawLines(Vector3[] segments) { EditorGUILayout.Drawn.Add("handle lines " + segments.Length / 2); }
-        public static void DrawLine(Vector3 a, Vector3 b) { EditorGUILayout.Drawn.Add("handle line " + a + " " + b); }
-        public static void DrawAAPolyLine(float width, params Vector3[] points)
-        {
-            EditorGUILayout.Drawn.Add("handle polyline " + points.Length);
-        }
         public static void Label(Vector3 at, string text) { EditorGUILayout.Drawn.Add("handle label " + text); }
-        public static void BeginGUI() { }
-        public static void EndGUI() { }
     }
 }

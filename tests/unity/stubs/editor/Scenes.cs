@@ -10,7 +10,6 @@ namespace UnityEditor
     {
         public static readonly List<string> Steps = new List<string>();
         public static void RecordObject(UnityEngine.Object o, string name) { Steps.Add(name); }
-        public static void RecordObjects(UnityEngine.Object[] o, string name) { Steps.Add(name); }
         static void Check(UnityEngine.Object given)
         {
             if (given == null)
@@ -34,12 +33,6 @@ namespace UnityEditor
         {
             Check(o);
             UnityEngine.Object.DestroyImmediate(o);
-        }
-
-        public static void SetTransformParent(Transform t, Transform parent, string name)
-        {
-            Steps.Add(name);
-            t.SetParent(parent);
         }
 
         public static T AddComponent<T>(GameObject go) where T : Component { return (T)AddComponent(go, typeof(T)); }
@@ -83,7 +76,6 @@ namespace UnityEditor
 
         public static string[] assetGUIDs { get { return Array.FindAll(Array.ConvertAll(held, AssetDatabase.GetAssetPath), path => path != ""); } }
         public static GameObject[] gameObjects { get { return Array.FindAll(Array.ConvertAll(held, o => o as GameObject), o => o != null); } }
-        public static Transform activeTransform { get { return activeGameObject == null ? null : activeGameObject.transform; } }
     }
 
     public static class EditorUtility
@@ -107,17 +99,7 @@ namespace UnityEditor
             dest.name = source.name;
         }
         public static bool IsPersistent(UnityEngine.Object o) { return AssetDatabase.Contains(o); }
-        public static bool DisplayDialog(string title, string message, string ok)
-        {
-            Dialogs.Add(title + ": " + message);
-            return true;
-        }
-        public static string OpenFilePanel(string title, string folder, string extension) { return Chosen; }
         public static string OpenFilePanelWithFilters(string title, string folder, string[] filters) { return Chosen; }
-        public static string SaveFilePanelInProject(string title, string name, string extension, string message)
-        {
-            return Chosen;
-        }
     }
 
     public static class FileUtil
@@ -243,14 +225,5 @@ namespace UnityEditor
                 public ProcessSceneMode loadingReason { get; }
             }
         }
-    }
-
-    public static class EditorPrefs
-    {
-        static readonly Dictionary<string, object> held = new Dictionary<string, object>();
-        public static bool GetBool(string key, bool otherwise) { return held.ContainsKey(key) ? (bool)held[key] : otherwise; }
-        public static void SetBool(string key, bool value) { held[key] = value; }
-        public static string GetString(string key, string otherwise) { return held.ContainsKey(key) ? (string)held[key] : otherwise; }
-        public static void SetString(string key, string value) { held[key] = value; }
     }
 }

@@ -51,12 +51,6 @@ namespace UnityEditor
             }
         }
 
-        public bool UpdateIfRequiredOrScript()
-        {
-            Update();
-            return true;
-        }
-
         public bool ApplyModifiedPropertiesWithoutUndo() { return ApplyModifiedProperties(); }
         public void Dispose() { }
 
@@ -144,8 +138,6 @@ namespace UnityEditor
         }
 
         public string name { get { return field.Name; } }
-        public string propertyPath { get { return field.Name; } }
-        public string displayName { get { return field.Name; } }
 
         public bool hasMultipleDifferentValues
         {
@@ -168,8 +160,6 @@ namespace UnityEditor
         }
         public bool boolValue { get { return (bool)Value; } set { Value = value; } }
         public string stringValue { get { return (string)Value; } set { Value = value; } }
-        public Vector2 vector2Value { get { return (Vector2)Value; } set { Value = value; } }
-        public Vector3 vector3Value { get { return (Vector3)Value; } set { Value = value; } }
 
         /// The place among the enum's values, not the value.
         public int enumValueIndex

@@ -3,10 +3,7 @@ using System;
 
 namespace UnityEngine
 {
-    public abstract class PropertyAttribute : Attribute
-    {
-        public int order { get; set; }
-    }
+    public abstract class PropertyAttribute : Attribute { }
 
     [AttributeUsage(AttributeTargets.Field)]
     public sealed class SerializeField : Attribute { }
@@ -36,34 +33,11 @@ namespace UnityEngine
         public MinAttribute(float min) { this.min = min; }
     }
 
-    [AttributeUsage(AttributeTargets.Field, AllowMultiple = true)]
-    public sealed class HeaderAttribute : PropertyAttribute
-    {
-        public readonly string header;
-        public HeaderAttribute(string header) { this.header = header; }
-    }
-
-    [AttributeUsage(AttributeTargets.Field, AllowMultiple = true)]
-    public sealed class SpaceAttribute : PropertyAttribute
-    {
-        public readonly float height;
-        public SpaceAttribute() { height = 8f; }
-        public SpaceAttribute(float height) { this.height = height; }
-    }
-
-    [AttributeUsage(AttributeTargets.Field)]
-    public sealed class InspectorNameAttribute : PropertyAttribute
-    {
-        public readonly string displayName;
-        public InspectorNameAttribute(string displayName) { this.displayName = displayName; }
-    }
-
     [AttributeUsage(AttributeTargets.Class)]
     public sealed class CreateAssetMenuAttribute : Attribute
     {
         public string menuName { get; set; }
         public string fileName { get; set; }
-        public int order { get; set; }
     }
 
     [AttributeUsage(AttributeTargets.Class)]
@@ -71,7 +45,6 @@ namespace UnityEngine
     {
         public string componentMenu { get; private set; }
         public AddComponentMenu(string menuName) { componentMenu = menuName; }
-        public AddComponentMenu(string menuName, int order) { componentMenu = menuName; }
     }
 
     /// The player adds required components, like Unity.
@@ -79,16 +52,7 @@ namespace UnityEngine
     public sealed class RequireComponent : Attribute
     {
         public Type m_Type0;
-        public Type m_Type1;
-        public Type m_Type2;
         public RequireComponent(Type requiredComponent) { m_Type0 = requiredComponent; }
-        public RequireComponent(Type first, Type second) { m_Type0 = first; m_Type1 = second; }
-        public RequireComponent(Type first, Type second, Type third)
-        {
-            m_Type0 = first;
-            m_Type1 = second;
-            m_Type2 = third;
-        }
     }
 
     [AttributeUsage(AttributeTargets.Class, Inherited = false)]
@@ -117,20 +81,6 @@ namespace UnityEngine
         public HelpURLAttribute(string url) { URL = url; }
     }
 
-    [AttributeUsage(AttributeTargets.Class)]
-    public sealed class IconAttribute : Attribute
-    {
-        public string path { get; private set; }
-        public IconAttribute(string path) { this.path = path; }
-    }
-
-    [AttributeUsage(AttributeTargets.Method)]
-    public sealed class ContextMenu : Attribute
-    {
-        public readonly string menuItem;
-        public ContextMenu(string itemName) { menuItem = itemName; }
-    }
-
     public enum RuntimeInitializeLoadType
     {
         AfterSceneLoad,
@@ -146,22 +96,6 @@ namespace UnityEngine
         public RuntimeInitializeLoadType loadType { get; private set; }
         public RuntimeInitializeOnLoadMethodAttribute() { loadType = RuntimeInitializeLoadType.AfterSceneLoad; }
         public RuntimeInitializeOnLoadMethodAttribute(RuntimeInitializeLoadType loadType) { this.loadType = loadType; }
-    }
-}
-
-namespace UnityEngine.Scripting
-{
-    [AttributeUsage(AttributeTargets.All)]
-    public class PreserveAttribute : Attribute { }
-}
-
-namespace UnityEngine.Serialization
-{
-    [AttributeUsage(AttributeTargets.Field, AllowMultiple = true)]
-    public class FormerlySerializedAsAttribute : Attribute
-    {
-        public string oldName { get; private set; }
-        public FormerlySerializedAsAttribute(string oldName) { this.oldName = oldName; }
     }
 }
 

@@ -13,7 +13,6 @@ namespace UnityEngine
     {
         public bool isPlaying { get; private set; }
         public void Play() { isPlaying = true; }
-        public void Stop() { isPlaying = false; }
     }
 
     /// Not: another rate than a test gives it.

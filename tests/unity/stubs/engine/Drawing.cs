@@ -10,7 +10,6 @@ namespace UnityEngine
         public Material(Shader shader) { this.shader = shader; }
         public Shader shader { get; set; }
         public Color color { get; set; }
-        public Texture mainTexture { get; set; }
 
         /// For tests: the arguments of SetColor.
         public readonly Dictionary<string, Color> Colors = new Dictionary<string, Color>();
@@ -99,7 +98,6 @@ namespace UnityEngine
     {
         public int width { get; protected set; }
         public int height { get; protected set; }
-        public int anisoLevel { get; set; }
     }
 
     public enum TextureFormat
@@ -128,7 +126,6 @@ namespace UnityEngine
         }
 
         public void Apply() { }
-        public static Texture2D whiteTexture { get { return new Texture2D(); } }
     }
 
     /// Faithful: sharedMaterials is a copy. Not: bounds, which a test sets; `material` is the shared one, in Unity a

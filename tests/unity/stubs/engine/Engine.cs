@@ -26,7 +26,7 @@ namespace UnityEngine
         public override string ToString() { return Type + ": " + Text; }
     }
 
-    /// Records the log in Lines, for tests, and invokes Application.logMessageReceived.
+    /// Records the log in Lines, for tests.
     public static class Debug
     {
         public static readonly List<LogLine> Lines = new List<LogLine>();
@@ -42,10 +42,8 @@ namespace UnityEngine
                     isIgnored = TestTools.LogAssert.ignoreFailingMessages
                 });
             }
-            Application.Tell(text, exception == null ? "" : exception.StackTrace, type);
         }
 
-        public static bool isDebugBuild { get { return true; } }
         public static void Log(object message) { Add(LogType.Log, message, null, null); }
         public static void Log(object message, Object context) { Add(LogType.Log, message, context, null); }
         public static void LogWarning(object message) { Add(LogType.Warning, message, null, null); }
@@ -58,11 +56,6 @@ namespace UnityEngine
         {
             Add(LogType.Exception, exception.GetType().Name + ": " + exception.Message, context, exception);
         }
-
-        [Conditional("UNITY_ASSERTIONS")]
-        public static void Assert(bool condition) { }
-
-        public static void DrawLine(Vector3 start, Vector3 end, Color color) { }
     }
 
     /// The player moves it; a test may set any of it.
@@ -81,45 +74,20 @@ namespace UnityEngine
         static Time() { timeScale = 1f; deltaTime = unscaledDeltaTime = 1f / 60f; fixedDeltaTime = 0.02f; }
     }
 
-    public enum RuntimePlatform
-    {
-        WindowsPlayer = 2,
-        WindowsEditor = 7,
-        LinuxPlayer = 13,
-        LinuxEditor = 16
-    }
-
     /// Paths are the test's to set.
     public static class Application
     {
-        public delegate void LogCallback(string condition, string stackTrace, LogType type);
-
-        public static event LogCallback logMessageReceived;
         public static event Action quitting;
-        public static event Action<bool> focusChanged;
         public static bool isPlaying { get; internal set; }
         public static bool isEditor { get; set; }
-        public static bool isFocused { get { return true; } }
-        public static bool isBatchMode { get { return true; } }
-        public static bool runInBackground { get; set; }
         public static string dataPath { get; set; }
         public static string streamingAssetsPath { get; set; }
         public static string persistentDataPath { get; set; }
-        public static string unityVersion { get { return "2021.3.0f1"; } }
-        public static RuntimePlatform platform { get { return RuntimePlatform.LinuxEditor; } }
 
         static Application()
         {
             isEditor = true;
             dataPath = streamingAssetsPath = persistentDataPath = Environment.CurrentDirectory;
-        }
-
-        internal static void Tell(string text, string trace, LogType type)
-        {
-            if (logMessageReceived != null)
-            {
-                logMessageReceived(text, trace, type);
-            }
         }
 
         internal static void Quitting()
@@ -140,16 +108,6 @@ namespace UnityEngine
                 }
             }
         }
-
-        internal static void Focus(bool focus)
-        {
-            if (focusChanged != null)
-            {
-                focusChanged(focus);
-            }
-        }
-
-        public static void Quit() { }
     }
 
     /// Records drawing.
@@ -161,17 +119,14 @@ namespace UnityEngine
         public static Matrix4x4 matrix { get; set; }
         static Gizmos() { color = Color.white; matrix = Matrix4x4.identity; }
         public static void DrawLine(Vector3 a, Vector3 b) { Drawn.Add("line " + a + " " + b); }
-        public static void DrawRay(Vector3 a, Vector3 b) { Drawn.Add("ray " + a + " " + b); }
         public static void DrawWireCube(Vector3 a, Vector3 b)
         {
             Drawn.Add("wire cube " + a + " " + b);
             WireCubes.Add(matrix);
         }
 
-        public static void DrawCube(Vector3 a, Vector3 b) { Drawn.Add("cube " + a + " " + b); }
         public static void DrawWireSphere(Vector3 a, float r) { Drawn.Add("wire sphere " + a + " " + r.ToString("G7", CultureInfo.InvariantCulture)); }
         public static void DrawSphere(Vector3 a, float r) { Drawn.Add("sphere " + a + " " + r.ToString("G7", CultureInfo.InvariantCulture)); }
-        public static void DrawWireMesh(Mesh mesh, Vector3 at, Quaternion q) { Drawn.Add("wire mesh " + mesh.name); }
     }
 
     /// Returns the values that a test sets.
@@ -181,20 +136,6 @@ namespace UnityEngine
         public static Vector2 mouseScrollDelta { get; set; }
         public static bool[] MouseButtons = new bool[3];
         public static bool GetMouseButton(int button) { return MouseButtons[button]; }
-        public static bool GetMouseButtonDown(int button) { return MouseButtons[button]; }
-        public static bool GetKey(KeyCode key) { return false; }
-        public static bool GetKeyDown(KeyCode key) { return false; }
-        public static float GetAxis(string axis) { return 0f; }
-    }
-
-    public enum KeyCode
-    {
-        None = 0,
-        Space = 32,
-        Escape = 27,
-        Tab = 9,
-        R = 114,
-        F1 = 282
     }
 
     public struct Ray
@@ -246,7 +187,6 @@ namespace UnityEngine
 
     public static class Screen
     {
-        public static int width { get { return 640; } }
         public static int height { get { return 360; } }
     }
 }

@@ -40,9 +40,6 @@ namespace UnityEngine.Events
             var target = call.Target as Object;
             return ReferenceEquals(target, null) || target != null;
         }
-
-        public void RemoveAllListeners() { listeners.Clear(); isChanged = true; }
-        public int GetPersistentEventCount() { return 0; }
     }
 
     [Serializable]

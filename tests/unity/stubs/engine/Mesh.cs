@@ -211,13 +211,8 @@ namespace UnityEngine
 
         public void SetVertices(Vector3[] value) { Take(ref positions, value, "vertices"); }
 
-        public void SetNormals(List<Vector3> value) { normals = value.ToArray(); }
-        public void SetNormals(Vector3[] value) { normals = value; }
-        public void SetTangents(List<Vector4> value) { tangents = value.ToArray(); }
-        public void SetTangents(Vector4[] value) { tangents = value; }
         public void SetUVs(int channel, List<Vector2> value) { SetUVs(channel, value.ToArray()); }
         public void SetUVs(int channel, Vector2[] value) { Take(ref uvArrays[channel], value, "uv"); }
-        public void SetTriangles(List<int> value, int part) { SetTriangles(value.ToArray(), part); }
         public void SetTriangles(int[] value, int part) { Set(value, MeshTopology.Triangles, part, "triangles"); }
         public void SetIndices(int[] value, MeshTopology topology, int part) { Set(value, topology, part, "indices"); }
 
@@ -248,8 +243,6 @@ namespace UnityEngine
             return Allowed(part, "indices") ? (int[])subMeshes[part].indices.Clone() : new int[0];
         }
 
-
-        public int[] GetIndices(int part, bool applyBaseVertex) { return GetIndices(part); }
         public void GetIndices(List<int> to, int part)
         {
             Check(to);
@@ -258,16 +251,6 @@ namespace UnityEngine
         }
 
 
-        public void GetIndices(List<int> to, int part, bool applyBaseVertex) { GetIndices(to, part); }
-        public void GetTriangles(List<int> to, int part)
-        {
-            Check(to);
-            Find(part);
-            Fill(to, GetTriangles(part));
-        }
-
-
-        public void GetTriangles(List<int> to, int part, bool applyBaseVertex) { GetTriangles(to, part); }
         public MeshTopology GetTopology(int part)
         {
             Living();
@@ -282,7 +265,6 @@ namespace UnityEngine
         public uint GetIndexCount(int part) { return (uint)Find(part).indices.Length; }
         public uint GetBaseVertex(int part) { Find(part); return 0; }
         public void UploadMeshData(bool markNoLongerReadable) { readable = readable && !markNoLongerReadable; }
-        public void MarkDynamic() { }
 
         public int[] GetTriangles(int part)
         {
@@ -316,8 +298,6 @@ namespace UnityEngine
             bounds = box;
         }
 
-        public void RecalculateNormals() { }
-
         public void Clear()
         {
             Living();
@@ -341,12 +321,6 @@ namespace UnityEngine
         {
             get { Living(); return shared; }
             set { Living(); shared = value; }
-        }
-
-        public Mesh mesh
-        {
-            get { return sharedMesh; }
-            set { sharedMesh = value; }
         }
     }
 }

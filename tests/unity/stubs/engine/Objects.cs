@@ -53,8 +53,6 @@ namespace UnityEngine
             set { Living(); flags = value; }
         }
 
-        public int GetInstanceID() { return id; }
-
         internal void Living()
         {
             if (destroyed)
@@ -76,7 +74,6 @@ namespace UnityEngine
 
         public static bool operator ==(Object a, Object b) { return Same(a, b); }
         public static bool operator !=(Object a, Object b) { return !Same(a, b); }
-        public static implicit operator bool(Object exists) { return !Same(exists, null); }
         public override bool Equals(object other) { return other == null ? destroyed : ReferenceEquals(this, other); }
         public override int GetHashCode() { return id; }
         public override string ToString() { return destroyed ? "null" : held + " (" + GetType().FullName + ")"; }
@@ -160,8 +157,6 @@ namespace UnityEngine
         }
 
         public Transform transform { get { Living(); return (Transform)parts[0]; } }
-        public GameObject gameObject { get { Living(); return this; } }
-        public bool activeSelf { get { Living(); return active; } }
 
         public bool activeInHierarchy
         {
@@ -205,12 +200,9 @@ namespace UnityEngine
             }
             foreach (RequireComponent needed in type.GetCustomAttributes(typeof(RequireComponent), true))
             {
-                foreach (Type t in new[] { needed.m_Type0, needed.m_Type1, needed.m_Type2 })
+                if (GetComponent(needed.m_Type0) == null)
                 {
-                    if (t != null && GetComponent(t) == null)
-                    {
-                        AddComponent(t);
-                    }
+                    AddComponent(needed.m_Type0);
                 }
             }
             Component made = (Component)Activator.CreateInstance(type, true);
@@ -254,12 +246,6 @@ namespace UnityEngine
             return default(T);
         }
 
-        public bool TryGetComponent<T>(out T found)
-        {
-            found = GetComponent<T>();
-            return found != null;
-        }
-
         public T[] GetComponents<T>()
         {
             Living();
@@ -288,7 +274,6 @@ namespace UnityEngine
         }
 
         public int layer { get; set; }
-        public T[] GetComponentsInChildren<T>() { return GetComponentsInChildren<T>(false); }
 
         public T[] GetComponentsInChildren<T>(bool includeInactive)
         {
@@ -303,8 +288,6 @@ namespace UnityEngine
             }
             return found.ToArray();
         }
-
-        public T GetComponentInChildren<T>() { return GetComponentInChildren<T>(false); }
 
         public T GetComponentInChildren<T>(bool includeInactive)
         {
@@ -344,12 +327,8 @@ namespace UnityEngine
         }
 
         public T GetComponent<T>() { return gameObject.GetComponent<T>(); }
-        public Component GetComponent(Type type) { return gameObject.GetComponent(type); }
-        public bool TryGetComponent<T>(out T found) { return gameObject.TryGetComponent(out found); }
         public T[] GetComponents<T>() { return gameObject.GetComponents<T>(); }
         public T GetComponentInParent<T>() { return gameObject.GetComponentInParent<T>(); }
-        public T GetComponentInChildren<T>() { return gameObject.GetComponentInChildren<T>(); }
-        public T[] GetComponentsInChildren<T>() { return gameObject.GetComponentsInChildren<T>(); }
     }
 
     /// Faithful: OnEnable and OnDisable come at once.
@@ -378,8 +357,6 @@ namespace UnityEngine
     public class MonoBehaviour : Behaviour
     {
         internal bool woken, running, started;
-        public bool useGUILayout { get; set; }
-        public static void print(object message) { Debug.Log(message); }
     }
 
     /// Faithful: OnEnable on creation, OnDisable and OnDestroy on the end, in edit mode too. Not: assets' loading.

@@ -159,18 +159,6 @@ namespace UnityEngine
             }
         }
 
-        public static void Focus(bool focused)
-        {
-            Application.Focus(focused);
-            foreach (MonoBehaviour b in InOrder())
-            {
-                if (b.woken)
-                {
-                    Send(b, "OnApplicationFocus", focused);
-                }
-            }
-        }
-
         /// For a test's beginning: nothing of an earlier one is left.
         public static void Clear()
         {

@@ -55,8 +55,6 @@ namespace UnityEngine
             return new Quaternion(c.x, c.y, c.z, 1f + dot).normalized;
         }
 
-        public static Quaternion LookRotation(Vector3 forward) { return LookRotation(forward, Vector3.up); }
-
         public static Quaternion LookRotation(Vector3 forward, Vector3 up)
         {
             Vector3 f = forward.normalized;
@@ -102,8 +100,6 @@ namespace UnityEngine
             return v + q.w * t + Vector3.Cross(u, t);
         }
 
-        public static bool operator ==(Quaternion a, Quaternion b) { return Dot(a, b) > 0.999999f; }
-        public static bool operator !=(Quaternion a, Quaternion b) { return !(a == b); }
         public bool Equals(Quaternion o) { return x.Equals(o.x) && y.Equals(o.y) && z.Equals(o.z) && w.Equals(o.w); }
         public override bool Equals(object other) { return other is Quaternion && Equals((Quaternion)other); }
         public override int GetHashCode() { return x.GetHashCode() ^ (y.GetHashCode() << 2) ^ w.GetHashCode(); }
@@ -124,14 +120,6 @@ namespace UnityEngine
         public static Matrix4x4 identity
         {
             get { Matrix4x4 m = new Matrix4x4(); m.m00 = m.m11 = m.m22 = m.m33 = 1f; return m; }
-        }
-
-        public Matrix4x4(Vector4 c0, Vector4 c1, Vector4 c2, Vector4 c3) : this()
-        {
-            SetColumn(0, c0);
-            SetColumn(1, c1);
-            SetColumn(2, c2);
-            SetColumn(3, c3);
         }
 
         public unsafe float this[int index]
@@ -157,23 +145,6 @@ namespace UnityEngine
         public Vector4 GetColumn(int c) { return new Vector4(this[0, c], this[1, c], this[2, c], this[3, c]); }
         public Vector4 GetRow(int r) { return new Vector4(this[r, 0], this[r, 1], this[r, 2], this[r, 3]); }
         public void SetColumn(int c, Vector4 v) { for (int i = 0; i < 4; i++) this[i, c] = v[i]; }
-        public void SetRow(int r, Vector4 v) { for (int i = 0; i < 4; i++) this[r, i] = v[i]; }
-
-        public static Matrix4x4 Translate(Vector3 v)
-        {
-            Matrix4x4 m = identity;
-            m.SetColumn(3, new Vector4(v.x, v.y, v.z, 1f));
-            return m;
-        }
-
-        public static Matrix4x4 Scale(Vector3 v)
-        {
-            Matrix4x4 m = identity;
-            m.m00 = v.x;
-            m.m11 = v.y;
-            m.m22 = v.z;
-            return m;
-        }
 
         public static Matrix4x4 Rotate(Quaternion q)
         {

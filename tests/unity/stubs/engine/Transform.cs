@@ -14,21 +14,13 @@ namespace UnityEngine
         Vector3 ownPosition;
         Quaternion ownRotation = Quaternion.identity;
         Vector3 ownScale = Vector3.one;
-        bool changed = true;
         Matrix4x4 kept;
         bool isKept;
 
         protected internal Transform() { }
 
-        public bool hasChanged
-        {
-            get { Living(); return changed; }
-            set { Living(); changed = value; }
-        }
-
         void Touch()
         {
-            changed = true;
             isKept = false;
             for (int i = 0; i < children.Count; i++)
             {
@@ -52,18 +44,6 @@ namespace UnityEngine
         {
             get { Living(); return ownScale; }
             set { Living(); ownScale = value; Touch(); }
-        }
-
-        public Vector3 localEulerAngles
-        {
-            get { return localRotation.eulerAngles; }
-            set { localRotation = Quaternion.Euler(value); }
-        }
-
-        public Vector3 eulerAngles
-        {
-            get { return rotation.eulerAngles; }
-            set { rotation = Quaternion.Euler(value); }
         }
 
         public Vector3 position
@@ -113,7 +93,6 @@ namespace UnityEngine
             set { SetParent(value, true); }
         }
 
-        public Transform root { get { return (object)above == null ? this : above.root; } }
         public int childCount { get { Living(); return children.Count; } }
         /// Not: paths.
         /// A name, or a path as "Child/Grandchild".
@@ -183,21 +162,6 @@ namespace UnityEngine
         }
 
         public Vector3 TransformPoint(Vector3 p) { return localToWorldMatrix.MultiplyPoint3x4(p); }
-        public Vector3 TransformVector(Vector3 v) { return localToWorldMatrix.MultiplyVector(v); }
-        public Vector3 TransformDirection(Vector3 v) { return rotation * v; }
         public Vector3 InverseTransformPoint(Vector3 p) { return worldToLocalMatrix.MultiplyPoint3x4(p); }
-        public Vector3 InverseTransformDirection(Vector3 v) { return Quaternion.Inverse(rotation) * v; }
-
-        public void SetPositionAndRotation(Vector3 p, Quaternion q)
-        {
-            rotation = q;
-            position = p;
-        }
-
-        public void GetPositionAndRotation(out Vector3 p, out Quaternion q)
-        {
-            p = position;
-            q = rotation;
-        }
     }
 }

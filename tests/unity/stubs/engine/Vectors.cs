@@ -12,30 +12,16 @@ namespace UnityEngine
         public Vector2(float x, float y) { this.x = x; this.y = y; }
 
         public static Vector2 zero { get { return new Vector2(0f, 0f); } }
-        public static Vector2 one { get { return new Vector2(1f, 1f); } }
-        public static Vector2 right { get { return new Vector2(1f, 0f); } }
-        public static Vector2 up { get { return new Vector2(0f, 1f); } }
         public float sqrMagnitude { get { return x * x + y * y; } }
         public float magnitude { get { return (float)Math.Sqrt(sqrMagnitude); } }
 
-        public float this[int index]
-        {
-            get { Index.Check(index, 2, "Vector2"); return index == 0 ? x : y; }
-            set { Index.Check(index, 2, "Vector2"); if (index == 0) x = value; else y = value; }
-        }
-
-        public void Set(float newX, float newY) { x = newX; y = newY; }
-        public static float Dot(Vector2 a, Vector2 b) { return a.x * b.x + a.y * b.y; }
         public static Vector2 operator +(Vector2 a, Vector2 b) { return new Vector2(a.x + b.x, a.y + b.y); }
         public static Vector2 operator -(Vector2 a, Vector2 b) { return new Vector2(a.x - b.x, a.y - b.y); }
-        public static Vector2 operator -(Vector2 a) { return new Vector2(-a.x, -a.y); }
         public static Vector2 operator *(Vector2 a, float s) { return new Vector2(a.x * s, a.y * s); }
         public static Vector2 operator *(float s, Vector2 a) { return a * s; }
-        public static Vector2 operator /(Vector2 a, float s) { return new Vector2(a.x / s, a.y / s); }
         public static bool operator ==(Vector2 a, Vector2 b) { return (a - b).sqrMagnitude < 9.99999944e-11f; }
         public static bool operator !=(Vector2 a, Vector2 b) { return !(a == b); }
         public static implicit operator Vector3(Vector2 v) { return new Vector3(v.x, v.y, 0f); }
-        public static implicit operator Vector2(Vector3 v) { return new Vector2(v.x, v.y); }
         public bool Equals(Vector2 other) { return x == other.x && y == other.y; } // not for NaN
         public override bool Equals(object other) { return other is Vector2 && Equals((Vector2)other); }
         public override int GetHashCode() { return x.GetHashCode() ^ (y.GetHashCode() << 2); }
@@ -48,12 +34,10 @@ namespace UnityEngine
         public float x, y, z;
 
         public Vector3(float x, float y, float z) { this.x = x; this.y = y; this.z = z; }
-        public Vector3(float x, float y) { this.x = x; this.y = y; z = 0f; }
 
         public static Vector3 zero { get { return new Vector3(0f, 0f, 0f); } }
         public static Vector3 one { get { return new Vector3(1f, 1f, 1f); } }
         public static Vector3 right { get { return new Vector3(1f, 0f, 0f); } }
-        public static Vector3 left { get { return new Vector3(-1f, 0f, 0f); } }
         public static Vector3 up { get { return new Vector3(0f, 1f, 0f); } }
         public static Vector3 down { get { return new Vector3(0f, -1f, 0f); } }
         public static Vector3 forward { get { return new Vector3(0f, 0f, 1f); } }
@@ -77,13 +61,7 @@ namespace UnityEngine
             }
         }
 
-        public void Set(float newX, float newY, float newZ) { x = newX; y = newY; z = newZ; }
-        public void Normalize() { this = normalized; }
         public static float Dot(Vector3 a, Vector3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-        public static float Distance(Vector3 a, Vector3 b) { return (a - b).magnitude; }
-        public static float Magnitude(Vector3 a) { return a.magnitude; }
-        public static Vector3 Normalize(Vector3 a) { return a.normalized; }
-        public static Vector3 Scale(Vector3 a, Vector3 b) { return new Vector3(a.x * b.x, a.y * b.y, a.z * b.z); }
         public static Vector3 Lerp(Vector3 a, Vector3 b, float t)
         {
             return a + (b - a) * Math.Max(0f, Math.Min(1f, t));
@@ -124,9 +102,7 @@ namespace UnityEngine
         public float x, y, z, w;
 
         public Vector4(float x, float y, float z, float w) { this.x = x; this.y = y; this.z = z; this.w = w; }
-        public Vector4(float x, float y, float z) { this.x = x; this.y = y; this.z = z; w = 0f; }
 
-        public static Vector4 zero { get { return new Vector4(0f, 0f, 0f, 0f); } }
         public float sqrMagnitude { get { return x * x + y * y + z * z + w * w; } }
 
         public float this[int index]
@@ -166,28 +142,11 @@ namespace UnityEngine
         public Color(float r, float g, float b) { this.r = r; this.g = g; this.b = b; a = 1f; }
 
         public static Color white { get { return new Color(1f, 1f, 1f); } }
-        public static Color black { get { return new Color(0f, 0f, 0f); } }
         public static Color grey { get { return new Color(0.5f, 0.5f, 0.5f); } }
-        public static Color gray { get { return grey; } }
         public static Color red { get { return new Color(1f, 0f, 0f); } }
         public static Color green { get { return new Color(0f, 1f, 0f); } }
         public static Color blue { get { return new Color(0f, 0f, 1f); } }
-        public static Color cyan { get { return new Color(0f, 1f, 1f); } }
-        public static Color yellow { get { return new Color(1f, 235f / 255f, 4f / 255f); } }
-        public static Color clear { get { return new Color(0f, 0f, 0f, 0f); } }
-        public static Color operator *(Color c, float s) { return new Color(c.r * s, c.g * s, c.b * s, c.a * s); }
-        public static bool operator ==(Color a, Color b)
-        {
-            return new Vector4(a.r, a.g, a.b, a.a) == new Vector4(b.r, b.g, b.b, b.a);
-        }
 
-        public static bool operator !=(Color a, Color b) { return !(a == b); }
-        public static Color Lerp(Color p, Color q, float t)
-        {
-            t = Math.Max(0f, Math.Min(1f, t));
-            return new Color(p.r + (q.r - p.r) * t, p.g + (q.g - p.g) * t, p.b + (q.b - p.b) * t,
-                p.a + (q.a - p.a) * t);
-        }
         public bool Equals(Color o) { return r.Equals(o.r) && g.Equals(o.g) && b.Equals(o.b) && a.Equals(o.a); }
         public override bool Equals(object other) { return other is Color && Equals((Color)other); }
         public override int GetHashCode() { return r.GetHashCode() ^ (g.GetHashCode() << 2) ^ b.GetHashCode(); }
@@ -228,7 +187,6 @@ namespace UnityEngine
         }
 
         public void Encapsulate(Vector3 point) { SetMinMax(Vector3.Min(min, point), Vector3.Max(max, point)); }
-        public bool Contains(Vector3 p) { return Vector3.Min(p, min).Equals(min) && Vector3.Max(p, max).Equals(max); }
     }
 
     [Serializable]
@@ -246,13 +204,6 @@ namespace UnityEngine
             this.width = width;
             this.height = height;
         }
-
-        public float xMin { get { return x; } }
-        public float xMax { get { return x + width; } }
-        public float yMin { get { return y; } }
-        public float yMax { get { return y + height; } }
-        public Vector2 center { get { return new Vector2(x + 0.5f * width, y + 0.5f * height); } }
-        public bool Contains(Vector2 p) { return p.x >= x && p.x < xMax && p.y >= y && p.y < yMax; }
     }
 
     /// The functions that the package uses, in float as Unity's.
@@ -265,29 +216,15 @@ namespace UnityEngine
         public const float Epsilon = float.Epsilon; // unless subnormal numbers are flushed to 0
 
         public static float Abs(float f) { return Math.Abs(f); }
-        public static int Abs(int f) { return Math.Abs(f); }
-        public static float Sqrt(float f) { return (float)Math.Sqrt(f); }
         public static float Sin(float f) { return (float)Math.Sin(f); }
         public static float Cos(float f) { return (float)Math.Cos(f); }
         public static float Tan(float f) { return (float)Math.Tan(f); }
-        public static float Atan2(float y, float x) { return (float)Math.Atan2(y, x); }
-        public static float Acos(float f) { return (float)Math.Acos(f); }
-        public static float Pow(float f, float p) { return (float)Math.Pow(f, p); }
-        public static float Floor(float f) { return (float)Math.Floor(f); }
-        public static float Round(float f) { return (float)Math.Round(f); }
         public static int RoundToInt(float f) { return (int)Math.Round(f); }
-        public static int FloorToInt(float f) { return (int)Math.Floor(f); }
-        public static int CeilToInt(float f) { return (int)Math.Ceiling(f); }
-        public static float Min(float a, float b) { return a < b ? a : b; }
         public static float Max(float a, float b) { return a > b ? a : b; }
         public static int Min(int a, int b) { return a < b ? a : b; }
         public static int Max(int a, int b) { return a > b ? a : b; }
         public static float Clamp(float v, float low, float high) { return v < low ? low : v > high ? high : v; }
-        public static int Clamp(int v, int low, int high) { return v < low ? low : v > high ? high : v; }
         public static float Clamp01(float v) { return Clamp(v, 0f, 1f); }
-        public static float Lerp(float a, float b, float t) { return a + (b - a) * Clamp01(t); }
-        public static float Repeat(float t, float length) { return Clamp(t - Floor(t / length) * length, 0f, length); }
-        public static float Sign(float f) { return f >= 0f ? 1f : -1f; }
         public static bool Approximately(float a, float b)
         {
             return Abs(b - a) < Max(1E-06f * Max(Abs(a), Abs(b)), Epsilon * 8f);
