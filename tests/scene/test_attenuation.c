@@ -1,6 +1,6 @@
 /* Attenuation of a tick's force: the attenuated force is reported, counted and limited. And a tick without contact.
  * SPDX-License-Identifier: MIT */
-#include "support/scenes.h"
+#include "scene/ask.h"
 
 #include "base/vec3.h"
 
@@ -8,19 +8,11 @@
 
 /* A wall of 400 N/m with front up at z = 0; device axes are the scene's; every protection. */
 static knurl_scene *wall(uint32_t without) {
-    knurl_hip_desc hip;
-    knurl_workspace workspace;
+    knurl_hip_desc hip = hip_in_scene_axes();
     surface_parts parts = surface_plane();
-    knurl_scene *scene = empty_scene(1);
-    (void)add_surface(scene, &parts);
-    knurl_hip_desc_init(&hip, sizeof hip);
-    knurl_workspace_set_identity(&workspace);
     hip.resolution = 0.0;
     hip.protections = KNURL_PROTECT_ALL & ~without;
-    hip.workspace = &workspace;
-    assert_int_equal(knurl_scene_configure_hip(scene, 0, &hip), KNURL_OK);
-    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
-    return scene;
+    return scene_with_hip(&parts, &hip);
 }
 
 static knurl_tick_output tick(knurl_scene *scene, double z, double attenuation, uint32_t paused) {
@@ -32,12 +24,6 @@ static knurl_tick_output tick(knurl_scene *scene, double z, double attenuation, 
     input.paused = paused;
     assert_int_equal(knurl_scene_tick(scene, 0, &input, &output), KNURL_OK);
     return output;
-}
-
-static knurl_hip_counts counts_of(const knurl_scene *scene) {
-    knurl_hip_counts counts;
-    assert_int_equal(knurl_scene_get_tick(scene, 0, NULL, &counts), KNURL_OK);
-    return counts;
 }
 
 TEST(the_share_that_is_asked_for_is_sent_and_told) {

@@ -1,8 +1,8 @@
 /* The method BANDLIMITED through a whole tick: on every surface, ridges are at its coordinates.
  * SPDX-License-Identifier: MIT */
+#include "scene/ask.h"
 #include "support/bandlimited.h"
 #include "support/geometry.h"
-#include "support/scenes.h"
 
 #define A     0.001 /* m */
 #define K     400.0 /* N/m, the default */
@@ -241,13 +241,9 @@ TEST(a_surface_that_slides_under_a_hip_at_rest_is_kept_step_with) {
 
 /* A HIP with an encoder of its own, its axes the scene's. */
 static void configure_counted(knurl_scene *scene) {
-    knurl_hip_desc desc;
-    knurl_workspace workspace;
-    knurl_workspace_set_identity(&workspace);
-    knurl_hip_desc_init(&desc, sizeof desc);
+    knurl_hip_desc desc = hip_in_scene_axes();
     desc.resolution = COUNT;
     desc.max_force = 1e6;
-    desc.workspace = &workspace;
     assert_int_equal(knurl_scene_configure_hip(scene, 0, &desc), KNURL_OK);
 }
 

@@ -1,6 +1,6 @@
 /* Surfaces checked against a device's limits: each limit by its equation, and enforced with clamp.
  * SPDX-License-Identifier: MIT */
-#include "support/scenes.h"
+#include "scene/ask.h"
 
 /* A device of round numbers: b + the lightest hand's 2 N s/m are 3 N s/m, T/2 + delay 1.5 ms: 2000 N/m. */
 static knurl_hip_desc device(const knurl_workspace *workspace) {
@@ -32,19 +32,13 @@ static setting plain(void) {
 }
 
 static knurl_scene *scene_in(setting *s) {
-    knurl_scene *scene = empty_scene(1);
     s->hip.workspace = &s->workspace;
-    (void)add_surface(scene, &s->parts);
-    assert_int_equal(knurl_scene_configure_hip(scene, 0, &s->hip), KNURL_OK);
-    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
-    return scene;
+    return scene_with_hip(&s->parts, &s->hip);
 }
 
 static knurl_surface_check check_of(setting *s) {
-    knurl_surface_check check;
     knurl_scene *scene = scene_in(s);
-    knurl_surface_check_init(&check, sizeof check);
-    assert_int_equal(knurl_scene_check_surface(scene, 0, knurl_scene_get_surface(scene, 0), &check), KNURL_OK);
+    const knurl_surface_check check = first_check(scene);
     knurl_scene_destroy(scene);
     return check;
 }

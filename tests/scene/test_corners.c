@@ -1,5 +1,6 @@
 /* Corners: a HIP that is pressed into one surface and slides into the next is held by both, for planes, meshes or one
  * mesh, with any split of their edges. SPDX-License-Identifier: MIT */
+#include "scene/ask.h"
 #include "scene/patch.h"
 #include "support/geometry.h"
 
@@ -261,10 +262,8 @@ TEST(a_mesh_that_touches_itself_is_reported) {
     for (int parts = 1; parts <= 2; parts++) {
         SCOPED_SHAPE s = groove(0.5, parts);
         surface_parts mesh = surface_shape(&s);
-        knurl_surface_info info;
         SCOPED_SCENE *scene = scene_of(&mesh);
-        knurl_surface_info_init(&info, sizeof info);
-        assert_int_equal(knurl_scene_get_surface_info(scene, knurl_scene_get_surface(scene, 0), &info), KNURL_OK);
+        const knurl_surface_info info = first_info(scene);
         assert_int_equal(info.touching_pairs > 0, parts > 1);
         assert_true(info.seam >= 1e-7 && info.seam < 1e-6);
     }

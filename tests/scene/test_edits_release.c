@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: MIT */
 #include "contact/mesh.h"
 #include "scene/scene.h"
+
+#include "scene/ask.h"
 #include "support/ledger.h"
 
 #include "base/system.h"
@@ -90,19 +92,15 @@ static int answers_while_counting(int *waited) {
     surface_parts parts = surface_mesh(&sheet);
     SCOPED_SCENE *scene = scene_of(&parts);
     asker a = {.scene = scene, .id = knurl_scene_get_surface(scene, 0)};
-    knurl_surface_info meanwhile, after;
-    knurl_surface_info_init(&meanwhile, sizeof meanwhile);
-    knurl_surface_info_init(&after, sizeof after);
     assert_int_equal(pthread_create(&a.thread, NULL, tell, &a), 0);
     while (!__atomic_load_n(&a.is_asking, __ATOMIC_ACQUIRE)) {}
     (void)nanosleep(&pause, NULL); /* the count takes 0.05 s or more */
     assert_int_equal(knurl_scene_has_surface(scene, a.id), 1);
     (void)nanosleep(&pause, NULL);
     *waited = __atomic_load_n(&a.is_answered, __ATOMIC_ACQUIRE);
-    assert_int_equal(knurl_scene_get_surface_info(scene, a.id, &meanwhile), KNURL_OK);
+    const knurl_surface_info meanwhile = info_of(scene, a.id);
     assert_int_equal(pthread_join(a.thread, NULL), 0);
-    assert_int_equal(knurl_scene_get_surface_info(scene, a.id, &after), KNURL_OK);
-    assert_true(meanwhile.bytes == after.bytes);
+    assert_true(meanwhile.bytes == info_of(scene, a.id).bytes);
     return !a.waited;
 }
 
@@ -124,14 +122,10 @@ TEST(a_mesh_without_common_edges_is_counted_once) {
     parts.desc.axis[0] = 1.0;
     SCOPED_SCENE *scene = scene_of(&parts);
     const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
-    knurl_surface_info info;
     knurl_surface_data *surface;
-    knurl_surface_info_init(&info, sizeof info);
-    assert_int_equal(knurl_scene_get_surface_info(scene, id, &info), KNURL_OK);
-    assert_int_equal(info.edges, 0);
+    assert_int_equal(info_of(scene, id).edges, 0);
     assert_int_equal(knurl_scene_lock_surface(scene, id, &surface), KNURL_OK);
     surface->shape.mesh->facets.felt_angle[1] = 77.0;
     knurl_scene_unlock(scene);
-    assert_int_equal(knurl_scene_get_surface_info(scene, id, &info), KNURL_OK);
-    CHECK_SAME(info.felt_angle[1], 77.0); /* not counted again */
+    CHECK_SAME(info_of(scene, id).felt_angle[1], 77.0); /* not counted again */
 }

@@ -1,5 +1,6 @@
 /* Edits under a HIP: the next tick; and ten thousand of them. SPDX-License-Identifier: MIT */
 #include "edits.h"
+#include "scene/ask.h"
 
 TEST(removing_what_is_touched_ends_the_contact_at_the_next_tick) {
     knurl_surface_id id;
@@ -138,19 +139,14 @@ TEST(material_with_higher_crests_reaches_further_at_the_next_tick) {
 
 TEST(info_tells_what_an_edit_made_of_a_surface) {
     surface_parts parts = surface_plane();
-    knurl_surface_info info;
     SCOPED_SCENE *scene = open_scene(1);
     parts.desc.name = "lid";
     const knurl_surface_id id = add_surface(scene, &parts);
     set_stiffness(scene, id, 650.0);
     set_place(scene, id, 0.5, 0.0, 0.25);
-    knurl_surface_info_init(&info, sizeof info);
-    assert_int_equal(knurl_scene_get_surface_info(scene, id, &info), KNURL_OK);
+    const knurl_surface_info info = info_of(scene, id);
     assert_string_equal(info.name, "lid");
-    knurl_material_desc material;
-    knurl_material_desc_init(&material, sizeof material);
-    assert_int_equal(knurl_scene_get_material(scene, id, &material), KNURL_OK);
-    CHECK_SAME(material.stiffness, 650.0);
+    CHECK_SAME(material_of(scene, id).stiffness, 650.0);
     CHECK_VECTOR(info.anchor, 0.5, 0.0, 0.25, 1e-12);
     CHECK_VECTOR(info.bounds_min, 0.45, -0.05, 0.25, 1e-12);
     CHECK_VECTOR(info.bounds_max, 0.55, 0.05, 0.25, 1e-12);

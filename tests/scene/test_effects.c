@@ -1,17 +1,11 @@
 /* The forces of effects against formulas, tick by tick, and their limits. SPDX-License-Identifier: MIT */
 #include "effects.h"
+#include "scene/ask.h"
 
 #include "base/vec3.h"
 
 #define PI      3.14159265358979323846
 #define TOUCH_K 533.0 /* N/m, rounded down: 0.8 (0.5 + 0.5 N s/m)/(1.5 ms) */
-
-static knurl_scene *scene_with_hip(const knurl_hip_desc *hip) {
-    knurl_scene *scene = empty_scene(1);
-    assert_int_equal(knurl_scene_configure_hip(scene, 0, hip), KNURL_OK);
-    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
-    return scene;
-}
 
 /* A committed scene without surfaces, its HIP a Touch's but for those protections. */
 static knurl_scene *touch_scene(uint32_t without, double scale) {
@@ -23,7 +17,7 @@ static knurl_scene *touch_scene(uint32_t without, double scale) {
     hip.resolution = 0.0;
     hip.protections = KNURL_PROTECT_ALL & ~without;
     hip.workspace = &workspace;
-    return scene_with_hip(&hip);
+    return scene_with_hip(NULL, &hip);
 }
 
 /* The formulas of effect.h, written out by components along the unit axis u. */
@@ -151,7 +145,7 @@ TEST(an_anchor_that_arrives_with_a_tick_drags_no_more_in_it) {
     knurl_hip_desc_init(&hip, sizeof hip);
     hip.update_rate_hz = 1024.0; /* every tick's time is exact */
     hip.protections = 0;
-    SCOPED_SCENE *scene = scene_with_hip(&hip);
+    SCOPED_SCENE *scene = scene_with_hip(NULL, &hip);
     knurl_effect damper = effect_of(KNURL_EFFECT_DAMPER);
     damper.damping = 2.0;
     set(scene, &damper, 1, 0.0);
@@ -192,9 +186,7 @@ TEST(a_new_effect_grows_at_the_slew_rate_up_to_the_devices_force) {
 }
 
 static double counted(const knurl_scene *scene) {
-    knurl_hip_counts counts;
-    assert_int_equal(knurl_scene_get_tick(scene, 0, NULL, &counts), KNURL_OK);
-    return (double)counts.passivity_ticks;
+    return (double)counts_of(scene).passivity_ticks;
 }
 
 /* Stiffness felt along x at 1 mm, N/m. */
@@ -267,11 +259,11 @@ TEST(a_faster_device_is_not_damped_more_and_a_late_one_less) {
     knurl_hip_desc_init(&hip, sizeof hip);
     hip.protections = KNURL_PROTECT_PASSIVITY;
     hip.update_rate_hz = 4000.0;
-    SCOPED_SCENE *fast = scene_with_hip(&hip);
+    SCOPED_SCENE *fast = scene_with_hip(NULL, &hip);
     CHECK_CLOSE(felt_damping(fast, 2000.0), 20.0, 1e-9);
     hip.update_rate_hz = 1000.0;
     hip.delay = 4.0;
-    SCOPED_SCENE *late = scene_with_hip(&hip);
+    SCOPED_SCENE *late = scene_with_hip(NULL, &hip);
     CHECK_CLOSE(felt_damping(late, 2000.0), 0.03 * 1.0 / 4.5e-3, 1e-9);
 }
 
@@ -280,7 +272,7 @@ TEST(the_makers_stiffness_is_a_limit_too) {
     knurl_hip_desc_init(&hip, sizeof hip);
     hip.protections = KNURL_PROTECT_PASSIVITY;
     hip.update_rate_hz = 4000.0; /* stable to 2133 N/m */
-    SCOPED_SCENE *scene = scene_with_hip(&hip);
+    SCOPED_SCENE *scene = scene_with_hip(NULL, &hip);
     knurl_effect effect = effect_of(KNURL_EFFECT_SPRING);
     effect.stiffness = 5000.0;
     set(scene, &effect, 1, 0.0);

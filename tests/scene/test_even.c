@@ -1,6 +1,6 @@
 /* Even sensation: a gain of ridges' amplitude over f_t. SPDX-License-Identifier: MIT */
+#include "scene/ask.h"
 #include "support/bandlimited.h"
-#include "support/scenes.h"
 
 #define A  0.001
 #define FS 1000.0
@@ -50,14 +50,12 @@ TEST(without_gains_nothing_changes_and_they_stay_until_they_are_taken_off) {
 
 TEST(a_check_tells_the_lowest_gain_and_where_the_amplitude_is_lowered) {
     knurl_scene *scene = even_scene(falling, COUNT_OF(falling));
-    knurl_surface_check check;
-    knurl_surface_check_init(&check, sizeof check);
-    assert_int_equal(knurl_scene_check_surface(scene, 0, knurl_scene_get_surface(scene, 0), &check), KNURL_OK);
+    knurl_surface_check check = first_check(scene);
     CHECK_CLOSE(check.lowest_gain, 0.1, 1e-12L);
     CHECK_SAME(check.lowered_hz[0], 100.0);
     CHECK_SAME(check.lowered_hz[1], 300.0);
     assert_int_equal(knurl_scene_set_gains(scene, 0, NULL, 0), KNURL_OK);
-    assert_int_equal(knurl_scene_check_surface(scene, 0, knurl_scene_get_surface(scene, 0), &check), KNURL_OK);
+    check = first_check(scene);
     CHECK_SAME(check.lowest_gain, 1.0);
     CHECK_SAME(check.lowered_hz[1], 0.0);
     knurl_scene_destroy(scene);

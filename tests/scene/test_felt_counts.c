@@ -1,14 +1,8 @@
 /* A HIP's counts on a grating: half cycles crossed and played, with every method; and the stretch of its ridges against
  * the material's, on both axes. SPDX-License-Identifier: MIT */
-#include "support/scenes.h"
+#include "scene/ask.h"
 
 #define A 0.0002
-
-static knurl_hip_counts counts_of(const knurl_scene *scene) {
-    knurl_hip_counts counts;
-    assert_int_equal(knurl_scene_get_tick(scene, 0, NULL, &counts), KNURL_OK);
-    return counts;
-}
 
 /* 1 mm deep along the plane at a steady speed, for so many metres at 1 kHz. */
 static knurl_hip_counts stroke(surface_parts *parts, double vx, double vy, double seconds) {
@@ -115,13 +109,10 @@ static shape uneven_sheet(double ratio) {
 
 static knurl_surface_check check_of(surface_parts *parts, knurl_surface_info *info) {
     knurl_scene *scene = empty_scene(1);
-    knurl_surface_check check;
-    const knurl_surface_id id = add_surface(scene, parts);
+    (void)add_surface(scene, parts);
     assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
-    knurl_surface_check_init(&check, sizeof check);
-    assert_int_equal(knurl_scene_check_surface(scene, 0, id, &check), KNURL_OK);
-    knurl_surface_info_init(info, sizeof *info);
-    assert_int_equal(knurl_scene_get_surface_info(scene, id, info), KNURL_OK);
+    const knurl_surface_check check = first_check(scene);
+    *info = first_info(scene);
     knurl_scene_destroy(scene);
     return check;
 }

@@ -1,6 +1,7 @@
 /* All outputs are finite, for every scene and hand: scenes from denormal floats to beyond the accepted range, with HIPs
  * anywhere. A call returns an error and changes nothing, or all of its doubles are finite. SPDX-License-Identifier: MIT
  */
+#include "scene/ask.h"
 #include "support/poses.h"
 
 #define FAR 1e9 /* m: KNURL_COORDINATE_MAX as it is documented */
@@ -89,9 +90,7 @@ static shape wild_shape(void) {
 }
 
 static void check_info(const knurl_scene *scene, knurl_surface_id id) {
-    knurl_surface_info info;
-    knurl_surface_info_init(&info, sizeof info);
-    assert_int_equal(knurl_scene_get_surface_info(scene, id, &info), KNURL_OK);
+    const knurl_surface_info info = info_of(scene, id);
     CHECK_FINITE(info, bounds_min, why);
     CHECK_FINITE(info, model_error, reversed_twins);
     CHECK_FINITE(info, axis, touching_pairs);
@@ -153,10 +152,8 @@ static void aim(const knurl_scene *scene, double out[3]) {
     const uint32_t count = knurl_scene_get_surface_count(scene);
     wild_point(9.3, out);
     if (count > 0 && !one_in(8)) {
-        knurl_surface_info info;
         const uint32_t which = (uint32_t)random_integer(&seed, 0, count - 1);
-        knurl_surface_info_init(&info, sizeof info);
-        assert_int_equal(knurl_scene_get_surface_info(scene, knurl_scene_get_surface(scene, which), &info), KNURL_OK);
+        const knurl_surface_info info = info_of(scene, knurl_scene_get_surface(scene, which));
         const double reach = 0.3 * fabs(info.bounds_max[0] - info.bounds_min[0]);
         for (int i = 0; i < 3; i++) {
             const double beside = one_in(2) ? wild(-12.0, 0.0) : 0.01 * wild(-3.0, 0.0);
@@ -181,7 +178,6 @@ static void query(const knurl_scene *scene, const double from[3], const double t
 static void tick_wildly(knurl_scene *scene, const double at[3]) {
     knurl_tick_input input;
     knurl_tick_output out;
-    knurl_hip_counts counts;
     knurl_hip_contact contacts[KNURL_CONTACTS_MAX];
     knurl_workspace w;
     memset(&input, 0, sizeof input);
@@ -195,7 +191,7 @@ static void tick_wildly(knurl_scene *scene, const double at[3]) {
     if (!(fabs(out.hip[0]) + fabs(out.hip[1]) + fabs(out.hip[2]) <= FAR)) {
         fail_msg("scene %d: a HIP at %g, %g, %g was taken", scene_number, out.hip[0], out.hip[1], out.hip[2]);
     }
-    assert_int_equal(knurl_scene_get_tick(scene, 0, NULL, &counts), KNURL_OK);
+    const knurl_hip_counts counts = counts_of(scene);
     CHECK_FINITE(counts, force_max, half_cycles_played);
     const uint32_t touched = knurl_scene_get_contacts(scene, 0, contacts, KNURL_CONTACTS_MAX);
     all_contacts += touched;

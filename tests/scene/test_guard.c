@@ -4,30 +4,18 @@
 
 #include "guard/passivity.h"
 
+#include "scene/ask.h"
 #include "support/rig.h"
-#include "support/scenes.h"
 
 #define K     700.0
 #define TICKS 600
 
 /* HIP 0 with every protection but those of `without`, device axes the scene's, no quantum. */
 static knurl_hip_desc guarded(uint32_t without) {
-    static knurl_workspace workspace;
-    knurl_hip_desc hip;
-    knurl_workspace_set_identity(&workspace);
-    knurl_hip_desc_init(&hip, sizeof hip);
+    knurl_hip_desc hip = hip_in_scene_axes();
     hip.resolution = 0.0;
     hip.protections = KNURL_PROTECT_ALL & ~without;
-    hip.workspace = &workspace;
     return hip;
-}
-
-static knurl_scene *scene_with(surface_parts *parts, const knurl_hip_desc *hip) {
-    knurl_scene *scene = empty_scene(1);
-    (void)add_surface(scene, parts);
-    assert_int_equal(knurl_scene_configure_hip(scene, 0, hip), KNURL_OK);
-    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
-    return scene;
 }
 
 static surface_parts wall(double stiffness) {
@@ -36,17 +24,15 @@ static surface_parts wall(double stiffness) {
     return parts;
 }
 
-static knurl_hip_counts counts_of(const knurl_scene *scene) {
-    knurl_hip_counts counts;
-    assert_int_equal(knurl_scene_get_tick(scene, 0, NULL, &counts), KNURL_OK);
-    return counts;
+static knurl_scene *guarded_wall(double stiffness) {
+    surface_parts parts = wall(stiffness);
+    const knurl_hip_desc hip = guarded(0);
+    return scene_with_hip(&parts, &hip);
 }
 
 /* 0.5 m/s is 0.5 mm a tick at 1 kHz: 9 mm take 18 of them. 100 N/m: 50 N/s, which no slew limit minds. */
 TEST(a_first_tick_pressed_in_comes_in_as_a_ramp) {
-    surface_parts parts = wall(100.0);
-    const knurl_hip_desc hip = guarded(0);
-    SCOPED_SCENE *scene = scene_with(&parts, &hip);
+    SCOPED_SCENE *scene = guarded_wall(100.0);
     for (int tick = 1; tick <= 30; tick++) {
         const knurl_tick_output out = tick_at(scene, 0.0, 0.0, -0.009);
         CHECK_CLOSE(out.force[2], 100.0 * fmin(0.009, 0.0005 * tick), 1e-12);
@@ -61,7 +47,7 @@ TEST(friction_comes_in_with_the_depth_that_is_felt) {
     surface_parts parts = wall(100.0);
     parts.material.friction = 0.5;
     const knurl_hip_desc hip = guarded(0);
-    SCOPED_SCENE *scene = scene_with(&parts, &hip);
+    SCOPED_SCENE *scene = scene_with_hip(&parts, &hip);
     for (int tick = 0; tick < 30; tick++) {
         const knurl_tick_output out = tick_at(scene, 0.001 * tick, 0.0, -0.009); /* it slips, or the spring is short */
         assert_true(fabs(out.force[0]) <= 0.5 * out.force[2] + 1e-12);
@@ -72,9 +58,7 @@ TEST(friction_comes_in_with_the_depth_that_is_felt) {
 TEST(a_wall_that_jumps_comes_in_as_a_ramp) {
     static const double up[3] = {0.0, 0.0, 0.006};
     static const double straight[4] = {0.0, 0.0, 0.0, 1.0};
-    surface_parts parts = wall(100.0);
-    const knurl_hip_desc hip = guarded(0);
-    SCOPED_SCENE *scene = scene_with(&parts, &hip);
+    SCOPED_SCENE *scene = guarded_wall(100.0);
     for (int tick = 0; tick < 10; tick++) {
         (void)tick_at(scene, 0.0, 0.0, 0.001 - 0.0002 * (tick + 1));
     }
@@ -94,7 +78,7 @@ TEST(a_force_grows_no_faster_than_the_slew_rate) {
         knurl_hip_desc hip = guarded(0);
         const double step = 0.001 * (rates[i] > 0.0 ? rates[i] : 3.3 / 0.005);
         hip.slew_rate = rates[i];
-        SCOPED_SCENE *scene = scene_with(&parts, &hip);
+        SCOPED_SCENE *scene = scene_with_hip(&parts, &hip);
         for (int tick = 1; tick <= 30; tick++) {
             const knurl_tick_output out = tick_at(scene, 0.0, 0.0, -0.001);
             CHECK_CLOSE(out.force[2], fmin(3.3, step * tick), 1e-12);
@@ -104,9 +88,7 @@ TEST(a_force_grows_no_faster_than_the_slew_rate) {
 }
 
 TEST(after_lift_off_the_force_is_zero_at_once) {
-    surface_parts parts = wall(K);
-    const knurl_hip_desc hip = guarded(0);
-    SCOPED_SCENE *scene = scene_with(&parts, &hip);
+    SCOPED_SCENE *scene = guarded_wall(K);
     for (int tick = 0; tick < 40; tick++) {
         (void)tick_at(scene, 0.0, 0.0, -0.004);
     }
@@ -129,7 +111,7 @@ TEST(square_waves_at_full_amplitude_pass_every_limit_to_the_bit) {
                 knurl_hip_desc hip = guarded(i ? KNURL_PROTECT_ALL : 0);
                 hip.continuous_force = (double)INFINITY;
                 set_grating(&parts, methods[m], 1000.0, 0.0, 3.3 / (2.8745 * K));
-                scenes[i] = scene_with(&parts, &hip);
+                scenes[i] = scene_with_hip(&parts, &hip);
             }
             for (int tick = 0; tick < TICKS; tick++) {
                 const int p = tick % 150; /* a tap: 0.1 m/s down, 0.2 m/s up */
@@ -156,7 +138,7 @@ TEST(motors_warm_up_as_the_closed_form_has_it_and_are_kept_from_more) {
     knurl_hip_desc hip = guarded(KNURL_PROTECT_ENTRY | KNURL_PROTECT_SLEW);
     hip.heat_time = tau;
     hip.continuous_force = 0.88;
-    SCOPED_SCENE *scene = scene_with(&parts, &hip);
+    SCOPED_SCENE *scene = scene_with_hip(&parts, &hip);
     const double ratio2 = held * held / (0.88 * 0.88);
     const double warm = -tau * log(1.0 - 0.9 / ratio2); /* s */
     double last = held;
@@ -188,7 +170,7 @@ TEST(an_endless_continuous_force_is_no_limit) {
     knurl_hip_desc hip = guarded(KNURL_PROTECT_ENTRY | KNURL_PROTECT_SLEW);
     hip.continuous_force = (double)INFINITY;
     hip.heat_time = 0.1;
-    SCOPED_SCENE *scene = scene_with(&parts, &hip);
+    SCOPED_SCENE *scene = scene_with_hip(&parts, &hip);
     for (int tick = 0; tick < 3000; tick++) {
         CHECK_CLOSE(tick_at(scene, 0.0, 0.0, -0.003).force[2], 3.0, 1e-12);
     }
@@ -224,9 +206,7 @@ TEST(a_callback_may_leave_the_heat_to_its_device) {
 }
 
 TEST(nothing_that_is_not_a_number_gets_past_the_protections) {
-    surface_parts parts = wall(K);
-    const knurl_hip_desc hip = guarded(0);
-    SCOPED_SCENE *scene = scene_with(&parts, &hip);
+    SCOPED_SCENE *scene = guarded_wall(K);
     static const double wrong[] = {(double)NAN, (double)INFINITY};
     for (int tick = 0; tick < 60; tick++) {
         const int bad = tick % 10 == 9;
@@ -245,7 +225,7 @@ TEST(configuring_a_hip_begins_anew_and_cools_no_motor) {
     surface_parts parts = wall(K);
     knurl_hip_desc hip = guarded(0);
     hip.heat_time = 0.1;
-    SCOPED_SCENE *scene = scene_with(&parts, &hip);
+    SCOPED_SCENE *scene = scene_with_hip(&parts, &hip);
     for (int tick = 0; tick < 1000; tick++) {
         (void)tick_at(scene, 0.0, 0.0, -0.004);
     }
@@ -288,9 +268,7 @@ TEST(swings_that_go_on_are_stopped_and_nothing_else) {
                 {1020.0, 0.003, 20.0, 0.9, 0, 0},      {1020.0, 0.0006, 20.0, 1.0, 0, 0},
                 {660.0, 0.003, 20.0, 1.0, 0, 0}};
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
-        surface_parts parts = wall(rows[i].stiffness);
-        const knurl_hip_desc hip = guarded(0);
-        SCOPED_SCENE *scene = scene_with(&parts, &hip);
+        SCOPED_SCENE *scene = guarded_wall(rows[i].stiffness);
         const int first = swing_in(scene, rows[i].swing, rows[i].hz, rows[i].keeps);
         if (rows[i].before) {
             assert_in_range(first, rows[i].after, rows[i].before);
@@ -302,9 +280,7 @@ TEST(swings_that_go_on_are_stopped_and_nothing_else) {
 
 /* Off all walls for half a second, and they are hard again. */
 TEST(walls_are_hard_again_once_the_hip_has_been_off_them) {
-    surface_parts parts = wall(1020.0);
-    const knurl_hip_desc hip = guarded(0);
-    SCOPED_SCENE *scene = scene_with(&parts, &hip);
+    SCOPED_SCENE *scene = guarded_wall(1020.0);
     assert_true(swing_in(scene, 0.003, 20.0, 1.0) > 0);
     for (int round = 0; round < 2; round++) {
         for (int tick = 0; tick < (round ? 520 : 480); tick++) {
@@ -322,9 +298,8 @@ TEST(walls_are_hard_again_once_the_hip_has_been_off_them) {
 
 TEST(configuring_a_hip_or_giving_it_a_device_ends_an_alarm) {
     for (int adopts = 0; adopts < 2; adopts++) {
-        surface_parts parts = wall(1020.0);
         const knurl_hip_desc hip = guarded(0);
-        SCOPED_SCENE *scene = scene_with(&parts, &hip);
+        SCOPED_SCENE *scene = guarded_wall(1020.0);
         assert_true(swing_in(scene, 0.003, 20.0, 1.0) > 0);
         (void)tick_at(scene, 0.0, 0.0, -0.0004);
         assert_true(tick_at(scene, 0.0, 0.0, -0.0004).flags & KNURL_TICK_PASSIVITY);

@@ -1,6 +1,6 @@
 /* The numbers of a HIP: each in the range that hip.h states, or it is not configured; at every end of the ranges the
  * motors' limit holds. SPDX-License-Identifier: MIT */
-#include "support/scenes.h"
+#include "scene/ask.h"
 
 #include "hip/snapshot.h"
 
@@ -74,21 +74,17 @@ TEST(every_number_of_a_hip_is_in_its_range_or_the_hip_is_as_it_was) {
 static double check_motors(double rate, double max_force, double continuous_force, double heat_time) {
     surface_parts parts = surface_plane();
     parts.material.stiffness = 1e9;
-    knurl_scene *scene = empty_scene(1);
     knurl_hip_desc d;
-    knurl_hip_counts counts;
     double force = 0.0;
     knurl_hip_desc_init(&d, sizeof d);
     d.update_rate_hz = rate;
     d.max_force = max_force;
     d.continuous_force = continuous_force;
     d.heat_time = heat_time;
-    (void)add_surface(scene, &parts);
-    assert_int_equal(knurl_scene_configure_hip(scene, 0, &d), KNURL_OK);
-    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
+    knurl_scene *scene = scene_with_hip(&parts, &d);
     for (int tick = 0; tick < 1000; tick++) {
         const knurl_tick_output out = tick_at(scene, 0.0, 0.0, tick == 0 ? 1.0 : -1.0);
-        assert_int_equal(knurl_scene_get_tick(scene, 0, NULL, &counts), KNURL_OK);
+        const knurl_hip_counts counts = counts_of(scene);
         assert_true(out.device_force[2] >= 0.0 && out.device_force[2] <= max_force * (1.0 + 1e-9));
         assert_true(isfinite(counts.heat) && counts.heat >= 0.0 && isfinite(counts.force_max));
         assert_true(max_force <= continuous_force || counts.heat <= 1.0);

@@ -1,21 +1,8 @@
 /* Faults of downloaded meshes: mended or reported. SPDX-License-Identifier: MIT */
+#include "scene/ask.h"
 #include "scene/patch.h"
 
 #define K 400.0 /* N/m, the default */
-
-static knurl_surface_info info_of(const knurl_scene *scene) {
-    knurl_surface_info info;
-    knurl_surface_info_init(&info, sizeof info);
-    assert_int_equal(knurl_scene_get_surface_info(scene, knurl_scene_get_surface(scene, 0), &info), KNURL_OK);
-    return info;
-}
-
-static knurl_surface_check check_of(const knurl_scene *scene) {
-    knurl_surface_check check;
-    knurl_surface_check_init(&check, sizeof check);
-    assert_int_equal(knurl_scene_check_surface(scene, 0, knurl_scene_get_surface(scene, 0), &check), KNURL_OK);
-    return check;
-}
 
 /* --- reversed twins --- */
 
@@ -62,8 +49,8 @@ TEST(few_reversed_twins_leave_a_mesh_its_one_side_and_are_reported) {
             SCOPED_SHAPE s = sphere_with_twins(counts[i][0], counts[i][1], first);
             surface_parts parts = surface_shape(&s);
             SCOPED_SCENE *scene = scene_of(&parts);
-            const knurl_surface_info info = info_of(scene);
-            const knurl_surface_check check = check_of(scene);
+            const knurl_surface_info info = first_info(scene);
+            const knurl_surface_check check = first_check(scene);
             assert_int_equal(info.reversed_twins, counts[i][0]);
             assert_int_equal(info.double_sided, 0);
             assert_true(has_one_side(scene));
@@ -79,8 +66,8 @@ TEST(more_twins_than_a_tenth_of_the_area_make_a_mesh_double_sided_and_are_report
         SCOPED_SHAPE s = sphere_with_twins(counts[i][0], counts[i][1], 0);
         surface_parts parts = surface_shape(&s);
         SCOPED_SCENE *scene = scene_of(&parts);
-        const knurl_surface_check check = check_of(scene);
-        assert_int_equal(info_of(scene).double_sided, 1);
+        const knurl_surface_check check = first_check(scene);
+        assert_int_equal(first_info(scene).double_sided, 1);
         assert_int_equal((check.exceeded & KNURL_LIMIT_WINDING) != 0, counts[i][0] < 1280);
     }
 }
@@ -103,13 +90,12 @@ static shape plate(void) {
 
 /* Half cycles played on a stroke of 60 mm along x. */
 static double play_60_mm(surface_parts *parts) {
-    knurl_hip_counts counts;
     knurl_scene *scene = scene_of(parts);
     for (int k = 0; k <= 600; k++) {
         const double x = 0.0001 * k - 0.03, y = 0.0013;
         (void)tick_at(scene, x, y, bent(x, y) - 0.001);
     }
-    assert_int_equal(knurl_scene_get_tick(scene, 0, NULL, &counts), KNURL_OK);
+    const knurl_hip_counts counts = counts_of(scene);
     knurl_scene_destroy(scene);
     return (double)counts.half_cycles_played;
 }
@@ -132,10 +118,10 @@ TEST(uvs_of_another_scale_in_a_tenth_of_a_mesh_do_not_change_that_of_the_rest) {
         surface_parts parts = grated(&s, KNURL_METHOD_S1);
         CHECK_CLOSE(play_60_mm(&parts), 120.0, 2.0); /* the sheet is a little longer than its shadow */
         SCOPED_SCENE *scene = scene_of(&parts);
-        CHECK_CLOSE(info_of(scene).uneven, 0.1, 2e-3); /* by area */
-        assert_int_equal((check_of(scene).exceeded & KNURL_LIMIT_STRETCH) != 0,
+        CHECK_CLOSE(first_info(scene).uneven, 0.1, 2e-3); /* by area */
+        assert_int_equal((first_check(scene).exceeded & KNURL_LIMIT_STRETCH) != 0,
                          scales[n][0] < 1.0F || scales[n][0] > 1.0F);
-        assert_true(!check_of(scene).exceeded || strstr(check_of(scene).message, "of its area"));
+        assert_true(!first_check(scene).exceeded || strstr(first_check(scene).message, "of its area"));
     }
 }
 
@@ -150,18 +136,18 @@ TEST(uvs_of_a_palette_are_ignored_and_reported_if_a_grating_needs_them) {
         surface_parts parts = grated(&s, methods[i]);
         CHECK_CLOSE(play_60_mm(&parts), 120.0, 1.0); /* x, projected */
         knurl_scene *scene = scene_of(&parts);
-        assert_string_equal(info_of(scene).coordinates, "box, for its uvs have no area");
-        assert_true(check_of(scene).exceeded & KNURL_LIMIT_STRETCH);
+        assert_string_equal(first_info(scene).coordinates, "box, for its uvs have no area");
+        assert_true(first_check(scene).exceeded & KNURL_LIMIT_STRETCH);
         knurl_scene_destroy(scene);
         parts.desc.coordinates = KNURL_COORDINATES_BOX; /* explicit */
         scene = scene_of(&parts);
-        assert_string_equal(info_of(scene).coordinates, "box");
-        assert_int_equal(check_of(scene).exceeded & KNURL_LIMIT_STRETCH, 0);
+        assert_string_equal(first_info(scene).coordinates, "box");
+        assert_int_equal(first_check(scene).exceeded & KNURL_LIMIT_STRETCH, 0);
         knurl_scene_destroy(scene);
     }
     surface_parts smooth = surface_mesh(&s);
     SCOPED_SCENE *scene = scene_of(&smooth);
-    assert_int_equal(check_of(scene).exceeded & KNURL_LIMIT_STRETCH, 0);
+    assert_int_equal(first_check(scene).exceeded & KNURL_LIMIT_STRETCH, 0);
 }
 
 /* A box of which the two sides across an axis alone have uvs: a third of its area. */
@@ -180,7 +166,7 @@ TEST(uvs_on_less_than_half_of_the_area_are_ignored) {
         }
         surface_parts parts = surface_mesh(&box);
         SCOPED_SCENE *scene = scene_of(&parts);
-        assert_string_equal(info_of(scene).coordinates, "box, for its uvs have no area");
+        assert_string_equal(first_info(scene).coordinates, "box, for its uvs have no area");
     }
 }
 
@@ -192,7 +178,6 @@ static void check_round_trip(const shape *ball, int about_x, int32_t method, dou
     const double radius = 0.03, u = 4.0 * sqrt(2.0) * radius;
     const double pi = acos(-1.0);
     double last = 0.0;
-    knurl_hip_counts counts;
     surface_parts parts = surface_mesh(ball);
     set_grating(&parts, method, about_x ? 0.0 : fs, about_x ? fs : 0.0, A);
     SCOPED_SCENE *scene = scene_of(&parts);
@@ -203,10 +188,9 @@ static void check_round_trip(const shape *ball, int about_x, int32_t method, dou
         assert_true(k == 0 || fabs(out.cycles[about_x] - last) < 1.5 * fs * 2.0 * pi * r / 2000.0); /* at seams too */
         last = out.cycles[about_x];
     }
-    assert_int_equal(knurl_scene_get_tick(scene, 0, NULL, &counts), KNURL_OK);
-    CHECK_CLOSE((double)counts.half_cycles_played, 2.0 * fs * u, 2.0);
-    assert_true(info_of(scene).projection_seams > 0);
-    assert_int_equal(check_of(scene).exceeded & KNURL_LIMIT_STRETCH, 0);
+    CHECK_CLOSE((double)counts_of(scene).half_cycles_played, 2.0 * fs * u, 2.0);
+    assert_true(first_info(scene).projection_seams > 0);
+    assert_int_equal(first_check(scene).exceeded & KNURL_LIMIT_STRETCH, 0);
 }
 
 TEST(a_mesh_without_uvs_is_tagged_with_three_numbers_and_no_half_cycle_is_invented_at_a_seam) {
@@ -221,21 +205,18 @@ TEST(a_mesh_without_uvs_is_tagged_with_three_numbers_and_no_half_cycle_is_invent
 TEST(ridges_of_a_box_stand_on_each_side_as_its_axes_say) {
     SCOPED_SHAPE box = shape_box((const double[3]){0.02, 0.02, 0.02}, 0);
     surface_parts parts = surface_mesh(&box);
-    knurl_hip_counts counts;
     set_grating(&parts, KNURL_METHOD_S1, FS, 0.0, A);
     SCOPED_SCENE *scene = scene_of(&parts);
     for (int k = 0; k <= 150; k++) {
         (void)tick_at(scene, 0.0001 * k, 0.019, 0.001);
     }
-    assert_int_equal(knurl_scene_get_tick(scene, 0, NULL, &counts), KNURL_OK);
-    CHECK_CLOSE((double)counts.half_cycles_played, 30.0, 1.0);
+    const double on_top = (double)counts_of(scene).half_cycles_played;
+    CHECK_CLOSE(on_top, 30.0, 1.0);
     for (int k = 0; k <= 150; k++) { /* deeper under the side than under the top: it is the side's now */
         (void)tick_at(scene, 0.019, 0.015 - 0.0001 * k, 0.001);
     }
-    const double on_top = (double)counts.half_cycles_played;
-    assert_int_equal(knurl_scene_get_tick(scene, 0, NULL, &counts), KNURL_OK);
-    CHECK_CLOSE((double)counts.half_cycles_played, on_top, 9.0); /* the 4 mm beside the corner, in one leap */
-    assert_int_equal(info_of(scene).projection_seams, 12);
+    CHECK_CLOSE((double)counts_of(scene).half_cycles_played, on_top, 9.0); /* the 4 mm beside the corner, in one leap */
+    assert_int_equal(first_info(scene).projection_seams, 12);
 }
 
 TEST(a_box_takes_no_axis_and_a_shared_shape_no_coordinates) {

@@ -1,5 +1,6 @@
 /* Surfaces that move: jumps, and the duration of moves. SPDX-License-Identifier: MIT */
 #include "moving.h"
+#include "scene/ask.h"
 
 /* --- jumps --- */
 
@@ -102,14 +103,10 @@ TEST(hips_of_different_rates_see_the_same_way_in_seconds) {
     static const double rates[2] = {1000.0, 4000.0};
     surface_parts parts = wide_plane();
     SCOPED_SCENE *scene = empty_scene(2);
-    knurl_workspace workspace;
-    knurl_hip_desc hip;
+    knurl_hip_desc hip = hip_in_scene_axes();
     const pose up = at_height(0.0, 0.0, 0.004);
     const knurl_tick_input input = {{0.0, 0.0, -0.001}, {0.0, 0.0, 0.0}, 1, 0, 0.0, 0, {0}};
     knurl_tick_output out[2];
-    knurl_workspace_set_identity(&workspace);
-    knurl_hip_desc_init(&hip, sizeof hip);
-    hip.workspace = &workspace;
     hip.max_force = 100.0;
     for (uint32_t i = 0; i < 2; i++) {
         hip.update_rate_hz = rates[i];
@@ -138,18 +135,12 @@ TEST(hips_of_different_rates_see_the_same_way_in_seconds) {
 /* The faster of two alone: its own seconds count. */
 TEST(way_at_4_khz_takes_its_seconds) {
     surface_parts parts = wide_plane();
-    SCOPED_SCENE *scene = empty_scene(1);
-    knurl_workspace workspace;
-    knurl_hip_desc hip;
+    knurl_hip_desc hip = hip_in_scene_axes();
     const pose up = at_height(0.0, 0.0, 0.004);
-    knurl_workspace_set_identity(&workspace);
-    knurl_hip_desc_init(&hip, sizeof hip);
-    hip.workspace = &workspace;
     hip.max_force = 100.0;
     hip.update_rate_hz = 4000.0;
-    assert_int_equal(knurl_scene_configure_hip(scene, 0, &hip), KNURL_OK);
-    const knurl_surface_id id = add_surface(scene, &parts);
-    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
+    SCOPED_SCENE *scene = scene_with_hip(&parts, &hip);
+    const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
     (void)stand_at(scene, 0.0, 0.0, -0.001);
     move_to(scene, id, &up, 0.02);
     for (int k = 1; k <= 100; k++) {
@@ -177,9 +168,7 @@ TEST(bounds_of_a_turn_hold_it_closely) {
         SCOPED_SCENE *scene = scene_of(&parts);
         const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
         move_to(scene, id, &end, 1.0);
-        knurl_surface_info info;
-        knurl_surface_info_init(&info, sizeof info);
-        assert_int_equal(knurl_scene_get_surface_info(scene, id, &info), KNURL_OK);
+        const knurl_surface_info info = info_of(scene, id);
         for (int i = 0; i < 3; i++) {
             least[i] = HUGE_VAL;
             greatest[i] = -HUGE_VAL;

@@ -3,8 +3,8 @@
 #define _DEFAULT_SOURCE 1 /* fork(), syscall() */
 
 #include "full_model.h"
+#include "scene/ask.h"
 #include "support/own.h"
-#include "support/scenes.h"
 
 #include <pthread.h>
 #include <stdio.h>
@@ -224,16 +224,12 @@ static const struct stroked {
 static knurl_scene *make_scene(const struct stroked *what) {
     knurl_scene *scene = NULL;
     knurl_scene_desc desc;
-    knurl_workspace workspace;
-    knurl_hip_desc hip;
+    knurl_hip_desc hip = hip_in_scene_axes();
     knurl_scene_desc_init(&desc, sizeof desc);
     assert_int_equal(knurl_scene_create(&desc, &scene), KNURL_OK);
     set_full_model(scene, what->full_model);
     assert_int_equal(own_add("copy-of-S1", 1.0, own_s1, NULL), OWN);
     what->add(scene, what->method, what->friction);
-    knurl_workspace_set_identity(&workspace);
-    knurl_hip_desc_init(&hip, sizeof hip);
-    hip.workspace = &workspace;
     hip.viscous = 0.0; /* every protection has work to do: loose walls, warm motors, limits */
     hip.delay = 4.0;
     hip.heat_time = 0.5;
@@ -291,8 +287,7 @@ static void stroke_on(knurl_scene *scene, stroke *s) {
 
 /* Checks that the stroke had its intended contacts. */
 static void check_stroke(const knurl_scene *scene, const struct stroked *what, const stroke *s) {
-    knurl_hip_counts counts;
-    assert_int_equal(knurl_scene_get_tick(scene, 0, NULL, &counts), KNURL_OK);
+    const knurl_hip_counts counts = counts_of(scene);
     assert_int_equal(counts.ticks, TICKS);
     assert_in_range(counts.contact_ticks, TICKS / 5, TICKS * 4 / 5);
     assert_int_equal(counts.non_finite_ticks, TICKS / 1000);

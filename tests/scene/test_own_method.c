@@ -1,6 +1,6 @@
 /* Own methods through a whole tick: forces, limits, protections, contacts. SPDX-License-Identifier: MIT */
+#include "scene/ask.h"
 #include "support/own.h"
-#include "support/scenes.h"
 
 #define A  0.001 /* m */
 #define K  400.0 /* N/m, the default */
@@ -9,17 +9,9 @@
 /* A plane, and a HIP of a Touch with all its protections. */
 static knurl_scene *touched(int32_t method, double fsy) {
     surface_parts parts = surface_plane();
-    knurl_hip_desc hip;
-    knurl_workspace workspace;
-    knurl_workspace_set_identity(&workspace);
-    knurl_hip_desc_init(&hip, sizeof hip);
-    hip.workspace = &workspace;
+    const knurl_hip_desc hip = hip_in_scene_axes();
     set_grating(&parts, method, FS, fsy, A);
-    knurl_scene *scene = empty_scene(1);
-    (void)add_surface(scene, &parts);
-    assert_int_equal(knurl_scene_configure_hip(scene, 0, &hip), KNURL_OK);
-    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
-    return scene;
+    return scene_with_hip(&parts, &hip);
 }
 
 /* 0.5 s strokes at random speeds, from `least` to 4 mm deep; below 0, they are lifted off again and again. */
@@ -75,9 +67,7 @@ TEST(with_any_result_the_force_is_finite_and_within_crest_and_device) {
 TEST(contact_begins_at_its_crest_and_a_check_knows_its_swing) {
     const int32_t method = own_add("random", 1.5, random_height, &random_seed);
     SCOPED_SCENE *scene = touched(method, 0.0);
-    knurl_surface_check check;
-    knurl_surface_check_init(&check, sizeof check);
-    assert_int_equal(knurl_scene_check_surface(scene, 0, knurl_scene_get_surface(scene, 0), &check), KNURL_OK);
+    const knurl_surface_check check = first_check(scene);
     CHECK_CLOSE(check.amplitude_limit, fmin(3.3 / (K * 3.0), 0.88 / K), 1e-15L);
     assert_int_equal(check.exceeded & KNURL_LIMIT_AMPLITUDE, 0); /* 1.2 N from trough to crest, of 3.3 */
     (void)tick_at(scene, 0.0, 0.0, 1.51 * A);
@@ -88,10 +78,7 @@ TEST(contact_begins_at_its_crest_and_a_check_knows_its_swing) {
 TEST(a_check_tells_if_its_swing_from_trough_to_crest_exceeds_the_device) {
     const int32_t method = own_add("high", 5.0, random_height, &random_seed);
     SCOPED_SCENE *scene = touched(method, 0.0);
-    knurl_surface_check check;
-    knurl_surface_check_init(&check, sizeof check);
-    assert_int_equal(knurl_scene_check_surface(scene, 0, knurl_scene_get_surface(scene, 0), &check), KNURL_OK);
-    assert_int_equal(check.exceeded & KNURL_LIMIT_AMPLITUDE, KNURL_LIMIT_AMPLITUDE); /* 4 N, of 3.3 */
+    assert_int_equal(first_check(scene).exceeded & KNURL_LIMIT_AMPLITUDE, KNURL_LIMIT_AMPLITUDE); /* 4 N, of 3.3 */
 }
 
 static double count(const knurl_method_input *in, double *memory, void *user) KNURL_NONBLOCKING {
@@ -137,8 +124,5 @@ TEST(a_material_names_it_and_a_number_without_a_method_is_refused) {
     check_message("knurl_method_add(), found ");
     parts.material.method = method;
     assert_int_equal(knurl_scene_add_surface(scene, surface_ready(&parts), &id), KNURL_OK);
-    knurl_material_desc found;
-    knurl_material_desc_init(&found, sizeof found);
-    assert_int_equal(knurl_scene_get_material(scene, id, &found), KNURL_OK);
-    assert_int_equal(found.method, method);
+    assert_int_equal(material_of(scene, id).method, method);
 }

@@ -1,6 +1,7 @@
 /* Random presses and strokes in random rooms, checked against the rooms' solids: a HIP inside one is held, its proxy is
  * outside of all of them, and its force is at most the stiffness times the proxy's distance. SPDX-License-Identifier:
  * MIT */
+#include "scene/ask.h"
 #include "scene/rooms.h"
 
 #include <stdio.h>
@@ -188,13 +189,8 @@ static void press(visit *v) {
 /* A reversed triangle is flipped and reported, or only reported; other rooms report none. Returns 0 if it is not
  * flipped. */
 static int check_winding(const visit *v) {
-    const knurl_surface_id surface = knurl_scene_get_surface(v->scene, 0);
-    knurl_surface_info info;
-    knurl_surface_check check;
-    knurl_surface_info_init(&info, sizeof info);
-    knurl_surface_check_init(&check, sizeof check);
-    assert_int_equal(knurl_scene_get_surface_info(v->scene, surface, &info), KNURL_OK);
-    assert_int_equal(knurl_scene_check_surface(v->scene, 0, surface, &check), KNURL_OK);
+    const knurl_surface_info info = first_info(v->scene);
+    const knurl_surface_check check = first_check(v->scene);
     const int reversed = v->surfaces.reversed > 0;
     assert_int_equal((check.exceeded & KNURL_LIMIT_WINDING) != 0, reversed);
     assert_in_range(info.turned_triangles, 0, reversed);

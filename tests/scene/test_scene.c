@@ -1,4 +1,5 @@
 /* A scene's life on the game thread: every documented error, ids, names, memory. SPDX-License-Identifier: MIT */
+#include "scene/ask.h"
 #include "support/poses.h"
 
 static const double NO_NUMBERS[] = {(double)NAN, (double)INFINITY, (double)-INFINITY};
@@ -219,9 +220,7 @@ TEST(materials_out_of_range_are_refused_by_name) {
             CHECK_REFUSED(knurl_scene_set_material(scene, id, &bad.material), KNURL_ERROR_ARGUMENT, bad);
         }
     }
-    knurl_material_desc material;
-    knurl_material_desc_init(&material, sizeof material);
-    assert_int_equal(knurl_scene_get_material(scene, id, &material), KNURL_OK); /* the first value is kept */
+    const knurl_material_desc material = material_of(scene, id); /* the first value is kept */
     assert_memory_equal(&material, &good.material, sizeof material);
 }
 
@@ -336,18 +335,15 @@ TEST(tangents_alone_give_a_direction_but_s1_needs_coordinates) {
 }
 
 TEST(info_tells_the_axis_that_was_given) {
-    SCOPED_SCENE *scene = NULL;
-    knurl_surface_info info;
     surface_parts parts = surface_plane();
-    knurl_surface_info_init(&info, sizeof info);
-    assert_int_equal(knurl_scene_create(NULL, &scene), KNURL_OK);
-    assert_int_equal(knurl_scene_get_surface_info(scene, add_surface(scene, &parts), &info), KNURL_OK);
+    SCOPED_SCENE *scene = empty_scene(1);
+    knurl_surface_info info = info_of(scene, add_surface(scene, &parts));
     for (int i = 0; i < 3; i++) {
         CHECK_SAME(info.axis[i], 0.0);
     }
     parts.desc.axis[0] = -3.0;
     parts.desc.axis[1] = 4.0;
-    assert_int_equal(knurl_scene_get_surface_info(scene, add_surface(scene, &parts), &info), KNURL_OK);
+    info = info_of(scene, add_surface(scene, &parts));
     CHECK_CLOSE(info.axis[0], -0.6, 1e-15);
     CHECK_CLOSE(info.axis[1], 0.8, 1e-15);
     CHECK_SAME(info.axis[2], 0.0);

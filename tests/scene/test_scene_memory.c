@@ -2,6 +2,7 @@
  * about its surfaces. SPDX-License-Identifier: MIT */
 #include "scene/scene.h"
 
+#include "scene/ask.h"
 #include "support/ledger.h"
 
 static double valley(double x, double y) {
@@ -17,10 +18,7 @@ TEST(a_surface_tells_what_it_added_to_the_scene) {
     parts.desc.name = "a name that takes memory of its own";
     const uint64_t before = knurl_scene_get_bytes(scene);
     const knurl_surface_id id = add_surface(scene, &parts);
-    knurl_surface_info info;
-    knurl_surface_info_init(&info, sizeof info);
-    assert_int_equal(knurl_scene_get_surface_info(scene, id, &info), KNURL_OK);
-    assert_int_equal(info.bytes, knurl_scene_get_bytes(scene) - before);
+    assert_int_equal(info_of(scene, id).bytes, knurl_scene_get_bytes(scene) - before);
 }
 
 TEST(removing_gives_the_bytes_back) {
@@ -125,7 +123,6 @@ TEST(memory_that_runs_out_makes_no_scene) {
 /* Callers of another version: a material before `damping` was appended, and with a future field. */
 TEST(older_material_keeps_the_defaults_of_what_it_lacks) {
     surface_parts parts = surface_plane();
-    knurl_material_desc material;
     SCOPED_SCENE *scene = empty_scene(1);
     parts.material.stiffness = 123.0;
     parts.material.damping = (double)NAN; /* not read */
@@ -133,8 +130,7 @@ TEST(older_material_keeps_the_defaults_of_what_it_lacks) {
     parts.material.orientation = (double)NAN;
     parts.material.struct_size = offsetof(knurl_material_desc, damping);
     const knurl_surface_id id = add_surface(scene, &parts);
-    knurl_material_desc_init(&material, sizeof material);
-    assert_int_equal(knurl_scene_get_material(scene, id, &material), KNURL_OK);
+    const knurl_material_desc material = material_of(scene, id);
     CHECK_SAME(material.stiffness, 123.0);
     CHECK_SAME(material.damping, 0.0);
     CHECK_SAME(material.friction, 0.0);
@@ -191,7 +187,6 @@ TEST(shorter_info_is_written_no_further_than_its_size) {
 
 TEST(info_tells_what_a_plane_came_to_be) {
     surface_parts parts = surface_plane();
-    knurl_surface_info info;
     SCOPED_SCENE *scene = empty_scene(1);
     parts.desc.name = "wall";
     parts.desc.double_sided = 1;
@@ -201,16 +196,12 @@ TEST(info_tells_what_a_plane_came_to_be) {
     parts.plane.half_extents[1] = 0.03;
     parts.material.orientation = asin(1.0); /* the grating's x along the plane's y, the scene's z */
     const knurl_surface_id id = add_surface(scene, &parts);
-    knurl_surface_info_init(&info, sizeof info);
-    assert_int_equal(knurl_scene_get_surface_info(scene, id, &info), KNURL_OK);
+    const knurl_surface_info info = info_of(scene, id);
     assert_string_equal(info.name, "wall");
     assert_string_equal(info.model, "plane");
     assert_int_equal(info.triangle_count, 0);
     assert_int_equal(info.double_sided, 1);
-    knurl_material_desc material;
-    knurl_material_desc_init(&material, sizeof material);
-    assert_int_equal(knurl_scene_get_material(scene, id, &material), KNURL_OK);
-    assert_int_equal(material.method, KNURL_METHOD_BANDLIMITED); /* the default, resolved */
+    assert_int_equal(material_of(scene, id).method, KNURL_METHOD_BANDLIMITED); /* the default, resolved */
     CHECK_VECTOR(info.bounds_min, -0.02, 0.0, 0.47, 1e-12);
     CHECK_VECTOR(info.bounds_max, 0.02, 0.0, 0.53, 1e-12);
     CHECK_VECTOR(info.anchor, 0.0, 0.0, 0.5, 1e-12);
@@ -228,11 +219,8 @@ TEST(info_tells_how_uvs_stretch) {
         sheet.uvs[2 * v] = v % 3 == 0 ? 0.0f : v % 3 == 1 ? 1.0f / 3.0f : 1.0f;
     }
     surface_parts parts = surface_mesh(&sheet);
-    knurl_surface_info info;
     SCOPED_SCENE *scene = empty_scene(1);
-    const knurl_surface_id id = add_surface(scene, &parts);
-    knurl_surface_info_init(&info, sizeof info);
-    assert_int_equal(knurl_scene_get_surface_info(scene, id, &info), KNURL_OK);
+    const knurl_surface_info info = info_of(scene, add_surface(scene, &parts));
     assert_string_equal(info.shape, "mesh");
     assert_string_equal(info.model, "mesh+bvh");
     assert_int_equal(info.triangle_count, 4);

@@ -1,5 +1,6 @@
 /* Surfaces that have another's shape (knurl_surface_desc.shape_of): felt alike, held once, freed with the last.
  * SPDX-License-Identifier: MIT */
+#include "scene/ask.h"
 #include "support/poses.h"
 
 #include <string.h>
@@ -67,9 +68,7 @@ TEST(a_shared_shape_costs_its_surface_and_no_shape) {
     assert_true(one > 300000 && knurl_scene_get_bytes(scene) < one + 99 * 4096);
     uint64_t told = 0;
     for (uint32_t i = 0; i < 100; i++) {
-        knurl_surface_info info;
-        knurl_surface_info_init(&info, sizeof info);
-        assert_int_equal(knurl_scene_get_surface_info(scene, knurl_scene_get_surface(scene, i), &info), KNURL_OK);
+        const knurl_surface_info info = info_of(scene, knurl_scene_get_surface(scene, i));
         told += info.bytes;
         assert_true(info.axis[0] == 1.0);
     }

@@ -1,13 +1,7 @@
 /* Meshes without normals that are to be smooth: hard edges, reported angles, and the setting. SPDX-License-Identifier:
  * MIT */
+#include "scene/ask.h"
 #include "scene/smooth.h"
-
-static knurl_surface_info info_of(knurl_scene *scene, knurl_surface_id surface) {
-    knurl_surface_info info;
-    knurl_surface_info_init(&info, sizeof info);
-    assert_int_equal(knurl_scene_get_surface_info(scene, surface, &info), KNURL_OK);
-    return info;
-}
 
 static knurl_surface_info info_as(const shape *s, const float *normals, int32_t smooth) {
     surface_parts parts = surface_mesh(s);
@@ -87,12 +81,8 @@ TEST(a_cones_tip_stays_and_is_no_fault) {
     parts.desc.smooth = KNURL_SMOOTH_ON;
     parts.desc.axis[2] = 1.0;
     SCOPED_SCENE *scene = scene_of(&parts);
-    const knurl_surface_id surface = knurl_scene_get_surface(scene, 0);
-    assert_int_equal(info_of(scene, surface).bad_normals, 16);
-    knurl_surface_check check;
-    knurl_surface_check_init(&check, sizeof check);
-    assert_int_equal(knurl_scene_check_surface(scene, 0, surface, &check), KNURL_OK);
-    assert_false(check.exceeded & KNURL_LIMIT_NORMALS);
+    assert_int_equal(first_info(scene).bad_normals, 16);
+    assert_false(first_check(scene).exceeded & KNURL_LIMIT_NORMALS);
     shape_free(&s);
 }
 

@@ -1,15 +1,9 @@
 /* Meshes with normals: which triangles are curved, and which normals are bad and reported.
  * SPDX-License-Identifier: MIT */
+#include "scene/ask.h"
 #include "scene/smooth.h"
 
 #define K 400.0
-
-static knurl_surface_info info_of(knurl_scene *scene) {
-    knurl_surface_info info;
-    knurl_surface_info_init(&info, sizeof info);
-    assert_int_equal(knurl_scene_get_surface_info(scene, knurl_scene_get_surface(scene, 0), &info), KNURL_OK);
-    return info;
-}
 
 static knurl_scene *scene_with(const smooth_mesh *m) {
     surface_parts parts = smooth_surface(m, 1);
@@ -25,7 +19,7 @@ static uint32_t bad_with(double x, double y, double z) {
         m.normals[axis] = (float)normal[axis];
     }
     knurl_scene *scene = scene_with(&m);
-    const knurl_surface_info info = info_of(scene);
+    const knurl_surface_info info = first_info(scene);
     double p[3], n[3];
     shape_get(&m.s, 0, p);
     const double length = length3(p);
@@ -38,10 +32,7 @@ static uint32_t bad_with(double x, double y, double z) {
         assert_true(k < 135 || length3(out.force) > 0.0);
     }
     assert_int_equal(info.curved_triangles + info.bad_normals, 1280);
-    knurl_surface_check check;
-    knurl_surface_check_init(&check, sizeof check);
-    assert_int_equal(knurl_scene_check_surface(scene, 0, knurl_scene_get_surface(scene, 0), &check), KNURL_OK);
-    assert_int_equal((check.exceeded & KNURL_LIMIT_NORMALS) != 0, info.bad_normals > 0);
+    assert_int_equal((first_check(scene).exceeded & KNURL_LIMIT_NORMALS) != 0, info.bad_normals > 0);
     knurl_scene_destroy(scene);
     smooth_free(&m);
     return info.bad_normals;
@@ -73,8 +64,8 @@ TEST(normals_that_turn_a_sliver_over_are_bad) {
             m.s.indices[i] = i;
         }
         SCOPED_SCENE *scene = scene_with(&m);
-        assert_int_equal(info_of(scene).bad_normals, is_over);
-        assert_int_equal(info_of(scene).curved_triangles, !is_over);
+        assert_int_equal(first_info(scene).bad_normals, is_over);
+        assert_int_equal(first_info(scene).curved_triangles, !is_over);
         shape_free(&m.s);
     }
 }
@@ -91,7 +82,7 @@ TEST(a_zero_normal_is_reported_at_any_corner) {
         memcpy(kept, normal, sizeof kept);
         memset(normal, 0, sizeof kept);
         SCOPED_SCENE *scene = scene_with(&m);
-        assert_int_equal(info_of(scene).bad_normals, at_vertex);
+        assert_int_equal(first_info(scene).bad_normals, at_vertex);
         memcpy(normal, kept, sizeof kept);
     }
     smooth_free(&m);
@@ -100,7 +91,7 @@ TEST(a_zero_normal_is_reported_at_any_corner) {
 TEST(a_smooth_sphere_says_how_far_it_is_from_its_triangles) {
     smooth_mesh m = smooth_make_sphere(2);
     knurl_scene *scene = scene_with(&m);
-    const knurl_surface_info info = info_of(scene);
+    const knurl_surface_info info = first_info(scene);
     double low = HUGE_VAL;
     for (uint32_t i = 0; i < m.s.index_count / 3; i++) {
         double corners[3][3], n[3];
@@ -120,7 +111,7 @@ TEST(flat_normals_change_nothing) {
     smooth_mesh m = smooth_make_flat(shape_sphere(0.03, 2));
     surface_parts parts = smooth_surface(&m, 0);
     knurl_scene *with = scene_with(&m), *without = scene_of(&parts);
-    assert_int_equal(info_of(with).curved_triangles + info_of(with).bad_normals, 0);
+    assert_int_equal(first_info(with).curved_triangles + first_info(with).bad_normals, 0);
     for (int k = 0; k < 2000; k++) {
         const double at[3] = {0.0285 * cos(0.005 * k), 0.01 * sin(0.013 * k), 0.0285 * sin(0.005 * k)};
         const knurl_tick_output a = tick_at(with, at[0], at[1], at[2]), b = tick_at(without, at[0], at[1], at[2]);
@@ -142,7 +133,7 @@ TEST(a_flat_mesh_is_a_plane_if_its_normals_are) {
             m.normals[3 * v + 2] = (float)cos(x);
         }
         knurl_scene *scene = scene_with(&m);
-        const knurl_surface_info info = info_of(scene);
+        const knurl_surface_info info = first_info(scene);
         assert_string_equal(info.model, bent ? "mesh+bvh" : "plane");
         assert_int_equal(info.curved_triangles, bent ? 32 : 0);
         knurl_scene_destroy(scene);
@@ -164,7 +155,7 @@ TEST(an_edge_with_split_normals_stays_an_edge) {
     uint32_t at = shape_quad(&m.s, 0, 0, 2, 3, 1);
     (void)shape_quad(&m.s, at, 4, 6, 7, 5);
     knurl_scene *scene = scene_with(&m);
-    assert_int_equal(info_of(scene).curved_triangles, 4);
+    assert_int_equal(first_info(scene).curved_triangles, 4);
     const double top = 0.02 * tan(SMOOTH_PI / 6.0);
     (void)tick_at(scene, -0.002, 0.001, top + 0.002);
     const knurl_tick_output left = tick_at(scene, -0.0008, 0.001, top - 0.0015);
@@ -240,7 +231,7 @@ TEST(the_force_is_bounded_with_any_normals) {
         surface_parts flat_parts = smooth_surface(&m, 0);
         flat_parts.material.stiffness = K;
         knurl_scene *smooth = scene_with(&m), *flat = scene_of(&flat_parts);
-        const double bulge = info_of(smooth).bulge;
+        const double bulge = first_info(smooth).bulge;
         double at[3] = {0.0, 0.0, 0.02}, velocity[3] = {0.0, 0.0, -0.1};
         for (int k = 0; k < 5000; k++) {
             if (k % 25 == 24) {

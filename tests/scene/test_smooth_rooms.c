@@ -1,5 +1,6 @@
 /* Smooth and flat solids that touch and intersect, against their closed forms: a HIP inside a solid is held, its proxy
  * is outside all solids, and its force has a bound. SPDX-License-Identifier: MIT */
+#include "scene/ask.h"
 #include "scene/smooth.h"
 #include "support/poses.h"
 
@@ -193,9 +194,7 @@ static void furnish(room *r, uint64_t *seed, int as_one, int is_smooth) {
         smooth_free(&all);
     }
     for (uint32_t i = 0; i < knurl_scene_get_surface_count(r->scene); i++) {
-        knurl_surface_info info;
-        knurl_surface_info_init(&info, sizeof info);
-        assert_int_equal(knurl_scene_get_surface_info(r->scene, knurl_scene_get_surface(r->scene, i), &info), KNURL_OK);
+        const knurl_surface_info info = info_of(r->scene, knurl_scene_get_surface(r->scene, i));
         assert_int_equal(info.bad_normals, 0);
         r->bulge = fmax(r->bulge, info.bulge);
     }

@@ -1,5 +1,6 @@
 /* Surfaces that move into one another round the HIP: the force is bounded, the squeeze is counted, and the HIP is
  * released by a ramp, with the default protections. SPDX-License-Identifier: MIT */
+#include "scene/ask.h"
 #include "support/poses.h"
 
 #include <stdio.h>
@@ -37,11 +38,7 @@ static knurl_surface_id add_kind(knurl_scene *scene, int kind, const pose *at) {
 
 /* A default HIP, but in scene axes and without quantisation. */
 static void configure_protected(knurl_scene *scene) {
-    knurl_hip_desc desc;
-    knurl_workspace workspace;
-    knurl_workspace_set_identity(&workspace);
-    knurl_hip_desc_init(&desc, sizeof desc);
-    desc.workspace = &workspace;
+    knurl_hip_desc desc = hip_in_scene_axes();
     desc.resolution = 0.0;
     assert_int_equal(knurl_scene_configure_hip(scene, 0, &desc), KNURL_OK);
 }
@@ -87,9 +84,7 @@ static squeeze close_over(int floor, int lid, double speed, double past) {
         (void)tick_at(scene, 0.0013, 0.0017, -0.003);
     }
     s.lifted = length3(tick_at(scene, 0.0013, 0.0017, 0.001).force);
-    knurl_hip_counts counts;
-    assert_int_equal(knurl_scene_get_tick(scene, 0, NULL, &counts), KNURL_OK);
-    s.told = counts.squeezed_ticks;
+    s.told = counts_of(scene).squeezed_ticks;
     knurl_scene_destroy(scene);
     return s;
 }

@@ -1,5 +1,6 @@
 /* One tick on one surface: Eq. 9 with S1 and S2, damping, limits, frames and coordinates.
  * SPDX-License-Identifier: MIT */
+#include "scene/ask.h"
 #include "support/poses.h"
 
 #define PI  3.14159265358979323846
@@ -79,19 +80,12 @@ TEST(cycles_tell_where_on_the_grating) {
 /* S2 at a constant speed is T3 at rate/(fs v), for all kinds of events: even, odd, mixed, above f_h/2. */
 static void compare_with_events(double rate, double fs, const double velocity[3], double frequency) {
     surface_parts parts = grating_plane(KNURL_METHOD_S2, fs, 0.5 * fs);
-    SCOPED_SCENE *scene = empty_scene(1);
-    knurl_hip_desc hip;
-    knurl_workspace workspace;
+    knurl_hip_desc hip = hip_in_scene_axes();
     knurl_vibration_event event;
-    knurl_workspace_set_identity(&workspace);
-    knurl_hip_desc_init(&hip, sizeof hip);
     hip.update_rate_hz = rate;
     hip.max_force = 1e3;
     hip.protections = 0; /* it is 2 mm in at its first tick */
-    hip.workspace = &workspace;
-    assert_int_equal(knurl_scene_configure_hip(scene, 0, &hip), KNURL_OK);
-    (void)add_surface(scene, &parts);
-    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
+    SCOPED_SCENE *scene = scene_with_hip(&parts, &hip);
     assert_int_equal(knurl_vibration_event_prepare(rate / frequency, A, &event), KNURL_OK);
     for (int32_t k = 0; k < 5 * event.length; k++) {
         const double hip_at[3] = {0.01 * sin(k), 0.02 * cos(k), -0.002}; /* its position makes no difference */

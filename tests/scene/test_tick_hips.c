@@ -1,6 +1,6 @@
 /* One tick except rendering: workspaces, limits, lift-off, bad numbers, several surfaces and several HIPs,
  * snapshots for other threads. SPDX-License-Identifier: MIT */
-#include "support/scenes.h"
+#include "scene/ask.h"
 
 #include <pthread.h>
 
@@ -17,7 +17,6 @@ static surface_parts s2_plane(void) {
 /* Device x, y, z are the scene's y, z, x, half a metre off, a tenth the size. */
 static knurl_scene *scene_of_small_device(surface_parts *parts, double resolution) {
     static const double rotation[9] = {0, 0, 1, 1, 0, 0, 0, 1, 0};
-    knurl_scene *scene = empty_scene(1);
     knurl_hip_desc desc;
     knurl_workspace workspace;
     knurl_workspace_set_identity(&workspace);
@@ -28,10 +27,7 @@ static knurl_scene *scene_of_small_device(surface_parts *parts, double resolutio
     desc.resolution = resolution;
     desc.max_force = 1e6;
     desc.workspace = &workspace;
-    (void)add_surface(scene, parts);
-    assert_int_equal(knurl_scene_configure_hip(scene, 0, &desc), KNURL_OK);
-    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
-    return scene;
+    return scene_with_hip(parts, &desc);
 }
 
 TEST(workspace_turns_and_scales_what_a_device_feels) {
@@ -86,8 +82,7 @@ TEST(lift_off_ends_force_and_event_at_once) {
         assert_int_equal(out.flags, 0);
         assert_true(out.surface == 0);
     }
-    knurl_hip_counts counts;
-    assert_int_equal(knurl_scene_get_tick(scene, 0, NULL, &counts), KNURL_OK);
+    const knurl_hip_counts counts = counts_of(scene);
     assert_true(counts.ticks == 42 && counts.contact_ticks == 39 && counts.events == 6);
     CHECK_CLOSE(counts.force_max, K * 0.0025, TOL);
 }
@@ -95,7 +90,6 @@ TEST(lift_off_ends_force_and_event_at_once) {
 TEST(force_limit_shortens_and_keeps_the_direction) {
     surface_parts parts = surface_plane();
     SCOPED_SCENE *scene = empty_scene(1); /* max_force left open: 3.3 N */
-    knurl_hip_counts counts;
     knurl_hip_desc hip;
     knurl_hip_desc_init(&hip, sizeof hip);
     hip.protections = 0; /* it jumps into the walls */
@@ -114,7 +108,7 @@ TEST(force_limit_shortens_and_keeps_the_direction) {
     assert_int_equal(out.flags, KNURL_TICK_CONTACT | KNURL_TICK_FORCE_LIMIT);
     CHECK_CLOSE(out.depth, 0.008, 1e-15L); /* the reported depth is not limited */
     (void)tick_at(scene, 0.0, 0.008, -0.006);
-    assert_int_equal(knurl_scene_get_tick(scene, 0, NULL, &counts), KNURL_OK);
+    const knurl_hip_counts counts = counts_of(scene);
     assert_true(counts.force_limit_ticks == 2);
     CHECK_CLOSE(counts.force_max, 3.3, TOL);
 }
@@ -125,7 +119,6 @@ TEST(numbers_that_are_not_finite_zero_the_force_and_are_survived) {
     SCOPED_SCENE *scene = scene_of(&parts);
     const double pressed[3] = {0.0, 0.0, -0.002};
     const double velocity[3] = {0.1, 0.0, 0.0};
-    knurl_hip_counts counts;
     for (size_t i = 0; i < 6 * COUNT_OF(wrong); i++) {
         double bad[2][3] = {{0.0, 0.0, -0.002}, {0.1, 0.0, 0.0}};
         bad[i / 3 % 2][i % 3] = wrong[i / 6];
@@ -143,7 +136,7 @@ TEST(numbers_that_are_not_finite_zero_the_force_and_are_survived) {
         assert_int_equal(next.event, 0);
         assert_int_equal(next.tick, out.tick + 1);
     }
-    assert_int_equal(knurl_scene_get_tick(scene, 0, NULL, &counts), KNURL_OK);
+    const knurl_hip_counts counts = counts_of(scene);
     assert_true(counts.non_finite_ticks == 18 && counts.ticks == 18 * 5);
 }
 

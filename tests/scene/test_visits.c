@@ -1,8 +1,9 @@
 /* The limit of visits in a tick: reaching it is reported and counted, and a held HIP stays held.
  * SPDX-License-Identifier: MIT */
 #include "scene/scene.h"
+
+#include "scene/ask.h"
 #include "support/geometry.h"
-#include "support/scenes.h"
 
 #define K      400.0
 #define RADIUS 0.03
@@ -49,24 +50,13 @@ static surface_parts surface_shape(const shape *s, double amplitude) {
 }
 
 static knurl_scene *scene_within(surface_parts *parts, uint32_t max_visits) {
-    knurl_hip_desc desc;
-    knurl_workspace workspace;
     knurl_scene *scene = scene_of(parts);
-    knurl_workspace_set_identity(&workspace);
-    knurl_hip_desc_init(&desc, sizeof desc);
-    desc.resolution = 0.0;
-    desc.max_force = 1e6;
-    desc.protections = 0;
-    desc.workspace = &workspace;
-    assert_int_equal(knurl_scene_configure_hip(scene, 0, &desc), KNURL_OK);
     scene->hips[0].contacts.budget.max = max_visits;
     return scene;
 }
 
 static uint64_t count_limits(const knurl_scene *scene) {
-    knurl_hip_counts counts;
-    assert_int_equal(knurl_scene_get_tick(scene, 0, NULL, &counts), KNURL_OK);
-    return counts.visit_limit_ticks;
+    return counts_of(scene).visit_limit_ticks;
 }
 
 /* All triangles are as near to its middle: 20,480 of them, whose crests reach as far as it is wide. */
@@ -191,8 +181,7 @@ TEST(a_surface_that_holds_has_room_before_crests) {
 static int check_only_plane_is_touched(const shape *below, uint32_t max_visits) {
     surface_parts plane = surface_plane(), sphere = surface_shape(below, 0.0);
     knurl_hip_contact contacts[KNURL_CONTACTS_MAX];
-    knurl_hip_desc desc;
-    knurl_workspace workspace;
+    const knurl_hip_desc desc = hip_in_scene_axes();
     knurl_scene *scene = empty_scene(1);
     plane.desc.position[0] = plane.plane.half_extents[0] + 0.0015;
     (void)add_surface(scene, &plane);
@@ -200,9 +189,6 @@ static int check_only_plane_is_touched(const shape *below, uint32_t max_visits) 
     const knurl_surface_id touched = add_surface(scene, &plane);
     sphere.desc.position[2] = -0.0008 - RADIUS;
     (void)add_surface(scene, &sphere);
-    knurl_workspace_set_identity(&workspace);
-    knurl_hip_desc_init(&desc, sizeof desc);
-    desc.workspace = &workspace;
     assert_int_equal(knurl_scene_configure_hip(scene, 0, &desc), KNURL_OK);
     scene->hips[0].contacts.budget.max = max_visits;
     assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
@@ -228,11 +214,9 @@ TEST(what_is_looked_at_twice_for_want_of_visits_is_not_taken_for_something_else)
 }
 
 static uint32_t exceeded_by(const shape *s, double amplitude) {
-    knurl_surface_check check;
     surface_parts parts = surface_shape(s, amplitude);
     knurl_scene *scene = scene_of(&parts);
-    knurl_surface_check_init(&check, sizeof check);
-    assert_int_equal(knurl_scene_check_surface(scene, 0, knurl_scene_get_surface(scene, 0), &check), KNURL_OK);
+    const knurl_surface_check check = first_check(scene);
     knurl_scene_destroy(scene);
     return check.exceeded & KNURL_LIMIT_VISITS;
 }
@@ -254,8 +238,6 @@ static uint32_t exceeded_by_crowd(int count, int planes) {
     shape s = shape_sphere(RADIUS, 3);
     surface_parts parts = surface_shape(&s, 0.0);
     knurl_scene *scene = empty_scene(1);
-    knurl_surface_check check;
-    knurl_surface_check_init(&check, sizeof check);
     for (int i = 0; i < count; i++) {
         parts.desc.position[0] = 1e-5 * i;
         (void)add_surface(scene, &parts);
@@ -266,7 +248,7 @@ static uint32_t exceeded_by_crowd(int count, int planes) {
     }
     configure_plainly(scene, 0);
     assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
-    assert_int_equal(knurl_scene_check_surface(scene, 0, knurl_scene_get_surface(scene, 0), &check), KNURL_OK);
+    const knurl_surface_check check = first_check(scene);
     assert_int_equal(strstr(check.message, "16 meshes come within 1 mm") != NULL, count == 16);
     knurl_scene_destroy(scene);
     shape_free(&s);
