@@ -5,15 +5,6 @@
 
 #include <stdlib.h>
 
-static rig r; /* 400 KiB; reset by each test */
-
-/* Also after a failed test: no thread may still use the rig that the next test resets. */
-static int end_rig(void **state) {
-    (void)state;
-    rig_destroy(&r);
-    return 0;
-}
-
 /* --- rhythm --- */
 
 TEST_WITH(deadlines_are_absolute_and_do_not_drift, NULL, end_rig) {
@@ -86,7 +77,7 @@ static int ascending(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-TEST_WITH(jitter_is_how_late_the_loop_wakes, NULL, end_rig) {
+TEST_WITH(jitter_is_how_late_the_loop_wakes, begin_rig, end_rig) {
     static int64_t late[2000];
     static int64_t sorted[2000];
     uint64_t random = 11;
@@ -95,7 +86,6 @@ TEST_WITH(jitter_is_how_late_the_loop_wakes, NULL, end_rig) {
     }
     memcpy(sorted, late, sizeof late);
     qsort(sorted, COUNT_OF(sorted), sizeof *sorted, ascending);
-    rig_init(&r);
     r.late = late;
     r.late_count = COUNT_OF(late);
     r.desc.tick_limit = COUNT_OF(late);
@@ -106,11 +96,9 @@ TEST_WITH(jitter_is_how_late_the_loop_wakes, NULL, end_rig) {
     CHECK_CLOSE(stats.jitter_ns.p99, (double)sorted[1979], 0.03 * (double)sorted[1979]);
     CHECK_CLOSE(stats.jitter_ns.max, (double)sorted[1999], 0.03 * (double)sorted[1999]);
     assert_int_equal(stats.overruns, 0);
-    rig_destroy(&r);
 }
 
-TEST_WITH(tick_time_is_that_of_the_callback_alone, NULL, end_rig) {
-    rig_init(&r);
+TEST_WITH(tick_time_is_that_of_the_callback_alone, begin_rig, end_rig) {
     r.busy = 12345;
     r.desc.tick_limit = 500;
     rig_create(&r);
@@ -120,13 +108,11 @@ TEST_WITH(tick_time_is_that_of_the_callback_alone, NULL, end_rig) {
     CHECK_CLOSE(stats.tick_ns.p99, 12345.0, 0.03 * 12345.0);
     CHECK_CLOSE(stats.tick_ns.max, 12345.0, 0.03 * 12345.0);
     CHECK_SAME(stats.jitter_ns.max, 0.0L);
-    rig_destroy(&r);
 }
 
 /* --- ticks --- */
 
-TEST_WITH(the_callback_is_called_once_a_tick_and_what_it_gives_is_written, NULL, end_rig) {
-    rig_init(&r);
+TEST_WITH(the_callback_is_called_once_a_tick_and_what_it_gives_is_written, begin_rig, end_rig) {
     r.desc.tick_limit = 250;
     r.desc.update_rate_hz = 2500.0;
     rig_create(&r);
@@ -143,22 +129,18 @@ TEST_WITH(the_callback_is_called_once_a_tick_and_what_it_gives_is_written, NULL,
     assert_int_equal(stats.state, KNURL_LOOP_DONE);
     assert_int_equal(stats.ticks, 250);
     assert_int_equal(stats.watchdog_trips, 0);
-    rig_destroy(&r);
 }
 
-TEST_WITH(a_force_that_nobody_sets_is_none, NULL, end_rig) {
-    rig_init(&r);
+TEST_WITH(a_force_that_nobody_sets_is_none, begin_rig, end_rig) {
     memset(r.force, 0, sizeof r.force);
     rig_create(&r);
     assert_int_equal(knurl_loop_step(r.loop, 3), KNURL_OK);
     for (int axis = 0; axis < 3; axis++) {
         CHECK_SAME(r.written[2][axis], 0.0L);
     }
-    rig_destroy(&r);
 }
 
-TEST_WITH(stepping_runs_so_many_ticks_and_sleeps_for_none, NULL, end_rig) {
-    rig_init(&r);
+TEST_WITH(stepping_runs_so_many_ticks_and_sleeps_for_none, begin_rig, end_rig) {
     r.desc.tick_limit = 100;
     rig_create(&r);
     assert_int_equal(knurl_loop_step(r.loop, 0), KNURL_OK);
@@ -173,11 +155,9 @@ TEST_WITH(stepping_runs_so_many_ticks_and_sleeps_for_none, NULL, end_rig) {
     assert_int_equal(r.calls, 100);
     assert_int_equal(rig_stats(&r).ticks, 100);
     assert_int_equal(r.sleeps, 0);
-    rig_destroy(&r);
 }
 
-TEST_WITH(without_a_limit_a_loop_goes_on, NULL, end_rig) {
-    rig_init(&r);
+TEST_WITH(without_a_limit_a_loop_goes_on, begin_rig, end_rig) {
     rig_create(&r);
     assert_int_equal(knurl_loop_step(r.loop, 50000), KNURL_OK);
     assert_int_equal(r.calls, 50000);
@@ -200,11 +180,7 @@ TEST_WITH(at_the_end_the_force_goes_to_zero_by_a_straight_ramp, NULL, end_rig) {
         r.desc.update_rate_hz = cases[i / 2].rate;
         r.desc.tick_limit = 30;
         rig_create(&r);
-        if (i % 2) {
-            rig_run(&r);
-        } else {
-            assert_int_equal(knurl_loop_step(r.loop, 30), KNURL_OK);
-        }
+        rig_go(&r, i % 2, 30);
         assert_in_range(r.writes, 30 + steps - 1, 30 + steps + 1);
         for (uint64_t k = 30; k < r.writes; k++) {
             CHECK_CLOSE(r.written[k][1], 1.0 - (double)(k - 29) / (double)(r.writes - 30), 1e-12);
@@ -218,8 +194,7 @@ TEST_WITH(at_the_end_the_force_goes_to_zero_by_a_straight_ramp, NULL, end_rig) {
 }
 
 /* "s from full force to none": force beyond the motors' limit does not count. */
-TEST_WITH(the_ramp_begins_at_what_was_played_not_at_what_was_asked_for, NULL, end_rig) {
-    rig_init(&r);
+TEST_WITH(the_ramp_begins_at_what_was_played_not_at_what_was_asked_for, begin_rig, end_rig) {
     r.force[1] = 40.0; /* of 2 N */
     r.desc.tick_limit = 10;
     rig_create(&r);
@@ -228,26 +203,22 @@ TEST_WITH(the_ramp_begins_at_what_was_played_not_at_what_was_asked_for, NULL, en
     for (uint64_t k = 10; k < r.writes; k++) {
         CHECK_CLOSE(r.written[k - 1][1] - r.written[k][1], 2.0 / (double)(r.writes - 10), 1e-12);
     }
-    rig_destroy(&r);
 }
 
-TEST_WITH(without_a_ramp_the_force_is_zeroed_at_once, NULL, end_rig) {
-    rig_init(&r);
+TEST_WITH(without_a_ramp_the_force_is_zeroed_at_once, begin_rig, end_rig) {
     r.desc.ramp_s = 0.0;
     r.desc.tick_limit = 10;
     rig_create(&r);
     assert_int_equal(knurl_loop_step(r.loop, 10), KNURL_OK);
     assert_in_range(r.writes, 10, 11);
     rig_check_halted(&r);
-    rig_destroy(&r);
 }
 
 static void give_nan(rig *self) {
     self->force[0] = NAN;
 }
 
-TEST_WITH(a_force_that_is_not_finite_is_played_as_none_and_ends_as_none, NULL, end_rig) {
-    rig_init(&r);
+TEST_WITH(a_force_that_is_not_finite_is_played_as_none_and_ends_as_none, begin_rig, end_rig) {
     r.special_call = 4;
     r.special = give_nan;
     r.desc.tick_limit = 10;
@@ -258,7 +229,6 @@ TEST_WITH(a_force_that_is_not_finite_is_played_as_none_and_ends_as_none, NULL, e
             CHECK_SAME(r.written[k][axis], 0.0L);
         }
     }
-    rig_destroy(&r);
 }
 
 /* A device that no longer answers cannot be ramped down: its force is zeroed. */
@@ -269,11 +239,7 @@ TEST_WITH(a_lost_device_ends_the_loop_with_its_force_zeroed, NULL, end_rig) {
         r.reads_left = i < 2 ? 70 : UINT64_MAX;
         r.writes_left = i < 2 ? UINT64_MAX : 70;
         rig_create(&r);
-        if (threaded) {
-            rig_run(&r);
-        } else {
-            assert_int_equal(knurl_loop_step(r.loop, 1000), KNURL_OK);
-        }
+        rig_go(&r, threaded, 1000);
         assert_int_equal(rig_stats(&r).state, KNURL_LOOP_LOST);
         assert_in_range(rig_stats(&r).ticks, 70, 71); /* the tick whose force could not be written may count */
         assert_int_equal(r.writes, 70);
@@ -285,15 +251,13 @@ TEST_WITH(a_lost_device_ends_the_loop_with_its_force_zeroed, NULL, end_rig) {
     }
 }
 
-TEST_WITH(a_device_that_is_lost_in_the_ramp_ends_it, NULL, end_rig) {
-    rig_init(&r);
+TEST_WITH(a_device_that_is_lost_in_the_ramp_ends_it, begin_rig, end_rig) {
     r.desc.tick_limit = 50;
     r.writes_left = 55;
     rig_create(&r);
     rig_run(&r);
     assert_int_equal(r.writes, 55);
     rig_check_halted(&r);
-    rig_destroy(&r);
 }
 
 /* --- states --- */
@@ -305,11 +269,7 @@ TEST_WITH(a_stop_before_the_start_means_that_it_ends_at_once, NULL, end_rig) {
         assert_int_equal(knurl_loop_wait(r.loop, 5.0), 1); /* it is not running */
         knurl_loop_stop(r.loop);
         knurl_loop_stop(r.loop);
-        if (threaded) {
-            rig_run(&r);
-        } else {
-            assert_int_equal(knurl_loop_step(r.loop, 1000), KNURL_OK);
-        }
+        rig_go(&r, threaded, 1000);
         assert_int_equal(rig_stats(&r).state, KNURL_LOOP_DONE);
         assert_int_equal(rig_stats(&r).ticks, 0);
         assert_int_equal(r.calls, 0);
@@ -317,9 +277,8 @@ TEST_WITH(a_stop_before_the_start_means_that_it_ends_at_once, NULL, end_rig) {
     }
 }
 
-TEST_WITH(a_loop_runs_once_and_in_one_way, NULL, end_rig) {
+TEST_WITH(a_loop_runs_once_and_in_one_way, begin_rig, end_rig) {
     char nothing = 0;
-    rig_init(&r);
     r.desc.tick_limit = 10;
     rig_create(&r);
     rig_run(&r);
@@ -345,11 +304,7 @@ TEST_WITH(a_stop_from_a_callback_only_asks_and_its_tick_is_the_last, NULL, end_r
         r.special_call = 5;
         r.special = stop_now;
         rig_create(&r);
-        if (threaded) {
-            rig_run(&r);
-        } else {
-            assert_int_equal(knurl_loop_step(r.loop, 1000), KNURL_OK);
-        }
+        rig_go(&r, threaded, 1000);
         assert_int_equal(r.seen, 1);
         assert_int_equal(r.calls, 6);
         assert_int_equal(rig_stats(&r).ticks, 6);
@@ -360,8 +315,7 @@ TEST_WITH(a_stop_from_a_callback_only_asks_and_its_tick_is_the_last, NULL, end_r
     }
 }
 
-TEST_WITH(a_stepped_loop_that_is_asked_to_stop_ends_in_its_next_step, NULL, end_rig) {
-    rig_init(&r);
+TEST_WITH(a_stepped_loop_that_is_asked_to_stop_ends_in_its_next_step, begin_rig, end_rig) {
     rig_create(&r);
     assert_int_equal(knurl_loop_step(r.loop, 10), KNURL_OK);
     knurl_loop_request_stop(r.loop);
@@ -370,11 +324,9 @@ TEST_WITH(a_stepped_loop_that_is_asked_to_stop_ends_in_its_next_step, NULL, end_
     assert_int_equal(r.calls, 10);
     assert_int_equal(rig_stats(&r).state, KNURL_LOOP_DONE);
     CHECK_SAME(r.written[r.writes - 1][1], 0.0L);
-    rig_destroy(&r);
 }
 
-TEST_WITH(destroying_a_loop_that_is_being_stepped_takes_the_force_away, NULL, end_rig) {
-    rig_init(&r);
+TEST_WITH(destroying_a_loop_that_is_being_stepped_takes_the_force_away, begin_rig, end_rig) {
     rig_create(&r);
     assert_int_equal(knurl_loop_step(r.loop, 10), KNURL_OK);
     rig_destroy(&r);
@@ -382,11 +334,9 @@ TEST_WITH(destroying_a_loop_that_is_being_stepped_takes_the_force_away, NULL, en
     rig_check_halted(&r);
 }
 
-TEST_WITH(a_new_loop_on_a_halted_device_plays, NULL, end_rig) {
-    rig_init(&r);
+TEST_WITH(a_new_loop_on_a_halted_device_plays, begin_rig, end_rig) {
     knurl_device_halt(&r.device);
     rig_create(&r);
     assert_int_equal(knurl_loop_step(r.loop, 100), KNURL_OK);
     CHECK_SAME(r.written[99][1], 1.0L);
-    rig_destroy(&r);
 }

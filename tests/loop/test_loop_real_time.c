@@ -5,17 +5,8 @@
 
 #include "base/system.h"
 
-static rig r;
-
-static int end_rig(void **state) {
-    (void)state;
-    rig_destroy(&r);
-    return 0;
-}
-
 /* How promptly is the machine's; no sooner, and not much later in the end, is the loop's. */
-TEST_WITH(a_quarter_of_a_second_at_1_khz_is_250_ticks_and_no_sooner_over, NULL, end_rig) {
-    rig_init(&r);
+TEST_WITH(a_quarter_of_a_second_at_1_khz_is_250_ticks_and_no_sooner_over, begin_rig, end_rig) {
     r.desc.clock = NULL;
     r.desc.watchdog_s = 1.0;
     r.desc.tick_limit = 250;

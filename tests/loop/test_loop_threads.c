@@ -2,27 +2,15 @@
  * SPDX-License-Identifier: MIT */
 #include "support/close.h"
 #include "support/rig.h"
+#include "support/wait.h"
 
 #include "base/system.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 
-static rig r; /* reset by each test */
-
-/* Also after a failed test: no thread may still use the rig that the next test resets. */
-static int end_rig(void **state) {
-    (void)state;
-    rig_destroy(&r);
-    return 0;
-}
-
 static double seconds_now(void) {
     return 1e-9 * (double)knurl_system_now_ns();
-}
-
-static void sleep_s(double seconds) {
-    knurl_system_sleep_until_ns(knurl_system_now_ns() + (int64_t)(seconds * 1e9));
 }
 
 /* A rig with the system's clock and without a watchdog. */
@@ -32,12 +20,14 @@ static void init_real(void) {
     r.desc.watchdog_s = 0.0;
 }
 
+static int begin_real(void **state) {
+    (void)state;
+    init_real();
+    return 0;
+}
+
 static void wait_for_ticks(uint64_t ticks) {
-    const double give_up = seconds_now() + 10.0;
-    while (rig_stats(&r).ticks < ticks && seconds_now() < give_up) {
-        sleep_s(0.001);
-    }
-    assert_true(rig_stats(&r).ticks >= ticks);
+    WAIT_FOR(rig_stats(&r).ticks >= ticks);
 }
 
 static void stop_from_thread(void *loop) {
@@ -81,10 +71,9 @@ TEST_WITH(what_was_locked_is_unlocked_when_it_is_given_back, NULL, end_rig) {
     }
 }
 
-TEST_WITH(only_the_loops_own_memory_and_stack_are_locked, NULL, end_rig) {
+TEST_WITH(only_the_loops_own_memory_and_stack_are_locked, begin_real, end_rig) {
     static unsigned char hosts[8 * 1024 * 1024];
     memset(hosts, 1, sizeof hosts);
-    init_real();
     const long before = locked_kb();
     if (before < 0) {
         print_message("skipped: no /proc to read what is locked from\n");
@@ -100,8 +89,7 @@ TEST_WITH(only_the_loops_own_memory_and_stack_are_locked, NULL, end_rig) {
 
 /* --- the system's clock --- */
 
-TEST_WITH(half_a_second_at_1_khz_is_500_ticks_and_the_ramp, NULL, end_rig) {
-    init_real();
+TEST_WITH(half_a_second_at_1_khz_is_500_ticks_and_the_ramp, begin_real, end_rig) {
     r.desc.watchdog_s = 1.0;
     r.desc.tick_limit = 500;
     rig_create(&r);
@@ -116,11 +104,9 @@ TEST_WITH(half_a_second_at_1_khz_is_500_ticks_and_the_ramp, NULL, end_rig) {
     assert_int_equal(r.writes, 520); /* and the ramp's */
     assert_int_equal(stats.overruns, 0);
     CHECK_SAME(stats.jitter_ns.max, 0.0L);
-    rig_destroy(&r);
 }
 
-TEST_WITH(waiting_gives_up_after_its_time, NULL, end_rig) {
-    init_real();
+TEST_WITH(waiting_gives_up_after_its_time, begin_real, end_rig) {
     rig_create(&r);
     assert_int_equal(knurl_loop_start(r.loop), KNURL_OK);
     const double start = seconds_now();
@@ -129,11 +115,9 @@ TEST_WITH(waiting_gives_up_after_its_time, NULL, end_rig) {
     assert_int_equal(knurl_loop_wait(r.loop, 0.0), 0);
     assert_int_equal(knurl_loop_wait(r.loop, -1.0), 0);
     assert_int_equal(rig_stats(&r).state, KNURL_LOOP_RUNNING);
-    rig_destroy(&r);
 }
 
-TEST_WITH(statistics_and_snapshots_can_be_read_while_it_runs, NULL, end_rig) {
-    init_real();
+TEST_WITH(statistics_and_snapshots_can_be_read_while_it_runs, begin_real, end_rig) {
     r.desc.update_rate_hz = 10000.0;
     r.desc.tick_limit = 3000;
     rig_create(&r);
@@ -148,17 +132,15 @@ TEST_WITH(statistics_and_snapshots_can_be_read_while_it_runs, NULL, end_rig) {
         assert_true(stats.state == KNURL_LOOP_RUNNING || stats.state == KNURL_LOOP_DONE);
         assert_true(stats.jitter_ns.p50 >= 0.0 && stats.tick_ns.max >= 0.0);
         last = stats.ticks;
-        sleep_s(0.00003);
+        sleep_ms(0.03);
     } while (stats.state == KNURL_LOOP_RUNNING && seconds_now() < give_up);
     assert_int_equal(stats.state, KNURL_LOOP_DONE);
     assert_int_equal(rig_stats(&r).ticks, 3000);
-    rig_destroy(&r);
 }
 
 /* --- stops --- */
 
-TEST_WITH(a_stop_from_another_thread_waits_for_the_end, NULL, end_rig) {
-    init_real();
+TEST_WITH(a_stop_from_another_thread_waits_for_the_end, begin_real, end_rig) {
     rig_create(&r);
     assert_int_equal(knurl_loop_start(r.loop), KNURL_OK);
     wait_for_ticks(20);
@@ -169,9 +151,8 @@ TEST_WITH(a_stop_from_another_thread_waits_for_the_end, NULL, end_rig) {
     CHECK_SAME(r.written[(r.writes - 1) % RIG_ROOM][1], 0.0L);
     rig_check_halted(&r);
     knurl_loop_stop(r.loop); /* twice is fine */
-    sleep_s(0.01);
+    sleep_ms(10.0);
     assert_int_equal(r.calls, calls);
-    rig_destroy(&r);
 }
 
 TEST_WITH(stops_from_several_threads_at_once_all_return, NULL, end_rig) {
@@ -213,8 +194,7 @@ static void stop_here(rig *self) {
     knurl_loop_stop(self->loop);
 }
 
-TEST_WITH(a_stop_from_the_callback_ends_a_real_run, NULL, end_rig) {
-    init_real();
+TEST_WITH(a_stop_from_the_callback_ends_a_real_run, begin_real, end_rig) {
     r.special_call = 30;
     r.special = stop_here;
     rig_create(&r);
@@ -222,7 +202,6 @@ TEST_WITH(a_stop_from_the_callback_ends_a_real_run, NULL, end_rig) {
     assert_int_equal(r.calls, 31);
     assert_int_equal(rig_stats(&r).state, KNURL_LOOP_DONE);
     CHECK_SAME(r.written[r.writes - 1][1], 0.0L);
-    rig_destroy(&r);
 }
 
 TEST_WITH(destroying_a_running_loop_takes_the_force_away_and_calls_nobody_afterwards, NULL, end_rig) {
@@ -240,15 +219,14 @@ TEST_WITH(destroying_a_running_loop_takes_the_force_away_and_calls_nobody_afterw
         const uint64_t writes = r.writes;
         assert_true(writes == 0 || r.written[writes - 1][1] == 0.0);
         rig_check_halted(&r);
-        sleep_s(0.003);
+        sleep_ms(3.0);
         assert_true(r.calls == calls && r.writes == writes);
     }
 }
 
-TEST_WITH(a_device_that_is_lost_ends_a_real_run, NULL, end_rig) {
+TEST_WITH(a_device_that_is_lost_ends_a_real_run, begin_real, end_rig) {
     SCOPED_DEVICE *device = NULL;
     assert_int_equal(knurl_device_open("fake:?lose_at=0.1", &device), KNURL_OK);
-    init_real();
     r.desc.device = device;
     rig_create(&r);
     rig_run(&r);
@@ -262,12 +240,11 @@ TEST_WITH(a_device_that_is_lost_ends_a_real_run, NULL, end_rig) {
 /* --- the watchdog --- */
 
 static void stall(rig *self) {
-    sleep_s(0.2);
+    sleep_ms(200.0);
     self->seen = knurl_port_is_halted(self->desc.device);
 }
 
-TEST_WITH(while_a_callback_stalls_the_watchdog_zeroes_the_force_and_it_comes_back_by_the_ramp, NULL, end_rig) {
-    init_real();
+TEST_WITH(while_a_callback_stalls_the_watchdog_zeroes_the_force_and_it_comes_back_by_the_ramp, begin_real, end_rig) {
     r.desc.watchdog_s = 0.05;
     r.special_call = 100;
     r.special = stall;
@@ -284,11 +261,9 @@ TEST_WITH(while_a_callback_stalls_the_watchdog_zeroes_the_force_and_it_comes_bac
         best = fmax(best, r.written[tick][1]);
     }
     CHECK_SAME(best, 1.0L);
-    rig_destroy(&r);
 }
 
-TEST_WITH(without_a_watchdog_the_force_is_zeroed_only_after_the_stall, NULL, end_rig) {
-    init_real();
+TEST_WITH(without_a_watchdog_the_force_is_zeroed_only_after_the_stall, begin_real, end_rig) {
     r.special_call = 50;
     r.special = stall;
     r.desc.tick_limit = 60;
@@ -299,12 +274,10 @@ TEST_WITH(without_a_watchdog_the_force_is_zeroed_only_after_the_stall, NULL, end
     for (int tick = 0; tick < 60; tick++) {
         CHECK_CLOSE(r.written[tick][1], tick <= 50 ? 1.0 : (tick - 51) / 21.0, 1e-12); /* the ramp after a gap */
     }
-    rig_destroy(&r);
 }
 
 /* A ramp may take a second, and no tick is counted in it: the watchdog must not cut it off. */
-TEST_WITH(a_ramp_longer_than_the_watchdogs_patience_is_played_to_its_end, NULL, end_rig) {
-    init_real();
+TEST_WITH(a_ramp_longer_than_the_watchdogs_patience_is_played_to_its_end, begin_real, end_rig) {
     r.desc.ramp_s = 0.8;
     r.desc.watchdog_s = 0.25;
     r.desc.tick_limit = 50;
@@ -316,11 +289,9 @@ TEST_WITH(a_ramp_longer_than_the_watchdogs_patience_is_played_to_its_end, NULL, 
         CHECK_CLOSE(r.written[k - 1][1] - r.written[k][1], 1.0 / 800.0, 1e-5);
     }
     CHECK_SAME(r.written[r.writes - 1][1], 0.0L);
-    rig_destroy(&r);
 }
 
-TEST_WITH(a_patient_watchdog_does_not_hold_up_the_destruction, NULL, end_rig) {
-    init_real();
+TEST_WITH(a_patient_watchdog_does_not_hold_up_the_destruction, begin_real, end_rig) {
     r.desc.watchdog_s = 10.0;
     rig_create(&r);
     assert_int_equal(knurl_loop_start(r.loop), KNURL_OK);

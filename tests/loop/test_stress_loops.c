@@ -3,6 +3,7 @@
 #include "support/fake.h"
 #include "support/geometry.h"
 #include "support/ledger.h"
+#include "support/wait.h"
 
 #include "base/system.h"
 
@@ -74,18 +75,6 @@ static void check_felt(const knurl_scene *scene, uint32_t hip, double stiffness)
     CHECK_CLOSE(length3(out.force), stiffness * (out.height + out.depth), 1e-9);
 }
 
-/* So many more, which come within 20 s on any machine. */
-static void wait_for_ticks(const knurl_loop *loop, uint64_t more) {
-    const int64_t until = knurl_system_now_ns() + INT64_C(20000) * MS;
-    knurl_loop_stats stats = loop_stats(loop);
-    more += stats.ticks;
-    while (stats.ticks < more && knurl_system_now_ns() < until) {
-        knurl_system_sleep_until_ns(knurl_system_now_ns() + MS);
-        stats = loop_stats(loop);
-    }
-    assert_true(stats.ticks >= more);
-}
-
 TEST(two_loops_tick_while_a_thread_edits) {
     const char *given = getenv("KNURL_STRESS_SECONDS");
     const double seconds = given ? strtod(given, NULL) : 1.0;
@@ -113,7 +102,8 @@ TEST(two_loops_tick_while_a_thread_edits) {
     parts.material.stiffness = 777.0;
     assert_int_equal(knurl_scene_set_material(scene, floor, &parts.material), KNURL_OK);
     for (uint32_t i = 0; i < HIPS; i++) {
-        wait_for_ticks(loops[i], 100);
+        const uint64_t ticks = loop_stats(loops[i]).ticks;
+        WAIT_FOR(loop_stats(loops[i]).ticks >= ticks + 100);
         assert_int_equal(knurl_loop_wait(loops[i], 0.0), 0); /* alive */
         check_felt(scene, i, 777.0);
         knurl_loop_destroy(loops[i]);

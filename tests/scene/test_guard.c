@@ -176,8 +176,6 @@ TEST(an_endless_continuous_force_is_no_limit) {
     }
 }
 
-static rig r;
-
 /* A rig's device reports the Touch's 0.88 N and 60 s. 2 N: theta 0.9 after 11.5 s. */
 TEST(a_callback_warms_the_same_motors) {
     const double ratio2 = 2.0 * 2.0 / (0.88 * 0.88);

@@ -62,24 +62,24 @@ static inline knurl_result rig_start_device(knurl_device *device, double rate) {
 }
 
 static inline knurl_result rig_read(knurl_device *device, knurl_device_sample *sample) {
-    rig *r = rig_of(device);
-    if (r->reads_left == 0) {
+    rig *self = rig_of(device);
+    if (self->reads_left == 0) {
         return KNURL_ERROR_DEVICE_LOST;
     }
-    r->reads_left -= r->reads_left != UINT64_MAX;
+    self->reads_left -= self->reads_left != UINT64_MAX;
     memset(sample, 0, sizeof *sample);
-    sample->position[0] = 0.001 * (double)r->reads++;
+    sample->position[0] = 0.001 * (double)self->reads++;
     return KNURL_OK;
 }
 
 static inline knurl_result rig_write(knurl_device *device, const double force[3]) {
-    rig *r = rig_of(device);
-    if (r->writes_left == 0) {
+    rig *self = rig_of(device);
+    if (self->writes_left == 0) {
         return KNURL_ERROR_DEVICE_LOST;
     }
-    r->writes_left -= r->writes_left != UINT64_MAX;
-    memcpy(r->written[r->writes % RIG_ROOM], force, sizeof r->written[0]);
-    r->writes++;
+    self->writes_left -= self->writes_left != UINT64_MAX;
+    memcpy(self->written[self->writes % RIG_ROOM], force, sizeof self->written[0]);
+    self->writes++;
     return KNURL_OK;
 }
 
@@ -97,46 +97,46 @@ static inline int64_t rig_now(void *user) {
 }
 
 static inline void rig_sleep(int64_t deadline, void *user) {
-    rig *r = rig_of(user);
-    const int64_t late = r->sleeps < r->late_count ? r->late[r->sleeps] : 0;
-    r->deadlines[r->sleeps++ % RIG_ROOM] = deadline;
-    r->now = (deadline > r->now ? deadline : r->now) + late;
+    rig *self = rig_of(user);
+    const int64_t late = self->sleeps < self->late_count ? self->late[self->sleeps] : 0;
+    self->deadlines[self->sleeps++ % RIG_ROOM] = deadline;
+    self->now = (deadline > self->now ? deadline : self->now) + late;
 }
 
 static inline void rig_force(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user) {
-    rig *r = rig_of(user);
+    rig *self = rig_of(user);
     (void)sample;
-    r->out_of_order += tick != r->calls;
-    r->called_at[r->calls % RIG_ROOM] = r->now;
-    r->now += r->busy;
-    memcpy(force, r->force, sizeof r->force);
-    if (r->calls++ == r->special_call) {
-        r->special(r);
+    self->out_of_order += tick != self->calls;
+    self->called_at[self->calls % RIG_ROOM] = self->now;
+    self->now += self->busy;
+    memcpy(force, self->force, sizeof self->force);
+    if (self->calls++ == self->special_call) {
+        self->special(self);
     }
 }
 
 /** Sets a rig up, once a test: 2 N motors, a force of 1 N along y, its own clock, no watchdog to need one. */
-static inline void rig_init(rig *r) {
-    memset(r, 0, sizeof *r);
-    knurl_device_init(&r->device, &rig_driver);
-    r->device.max_force = 2.0;
-    r->reads_left = UINT64_MAX;
-    r->writes_left = UINT64_MAX;
-    r->special_call = UINT64_MAX;
-    r->clock.now_ns = rig_now;
-    r->clock.sleep_until_ns = rig_sleep;
-    r->clock.user = r;
-    r->now = INT64_C(123456789012345);
-    r->force[1] = 1.0;
-    knurl_loop_desc_init(&r->desc, sizeof r->desc);
-    r->desc.device = &r->device;
-    r->desc.force_callback = rig_force;
-    r->desc.user = r;
-    r->desc.clock = &r->clock;
+static inline void rig_init(rig *self) {
+    memset(self, 0, sizeof *self);
+    knurl_device_init(&self->device, &rig_driver);
+    self->device.max_force = 2.0;
+    self->reads_left = UINT64_MAX;
+    self->writes_left = UINT64_MAX;
+    self->special_call = UINT64_MAX;
+    self->clock.now_ns = rig_now;
+    self->clock.sleep_until_ns = rig_sleep;
+    self->clock.user = self;
+    self->now = INT64_C(123456789012345);
+    self->force[1] = 1.0;
+    knurl_loop_desc_init(&self->desc, sizeof self->desc);
+    self->desc.device = &self->device;
+    self->desc.force_callback = rig_force;
+    self->desc.user = self;
+    self->desc.clock = &self->clock;
 }
 
-static inline void rig_create(rig *r) {
-    const knurl_result result = knurl_loop_create(&r->desc, &r->loop);
+static inline void rig_create(rig *self) {
+    const knurl_result result = knurl_loop_create(&self->desc, &self->loop);
     if (result) {
         print_error("%s\n", knurl_error_message());
     }
@@ -144,24 +144,48 @@ static inline void rig_create(rig *r) {
 }
 
 /** Runs a thread to its end, which must come within 10 s. */
-static inline void rig_run(rig *r) {
-    assert_int_equal(knurl_loop_start(r->loop), KNURL_OK);
-    assert_int_equal(knurl_loop_wait(r->loop, 10.0), 1);
+static inline void rig_run(rig *self) {
+    assert_int_equal(knurl_loop_start(self->loop), KNURL_OK);
+    assert_int_equal(knurl_loop_wait(self->loop, 10.0), 1);
 }
 
-static inline knurl_loop_stats rig_stats(const rig *r) {
-    const knurl_loop_stats stats = loop_stats(r->loop);
+static inline knurl_loop_stats rig_stats(const rig *self) {
+    const knurl_loop_stats stats = loop_stats(self->loop);
     return stats;
 }
 
 /** After the end: zero force, after any last force. */
-static inline void rig_check_halted(const rig *r) {
-    assert_true(knurl_port_is_halted(&r->device));
+static inline void rig_check_halted(const rig *self) {
+    assert_true(knurl_port_is_halted(&self->device));
 }
 
-static inline void rig_destroy(rig *r) {
-    knurl_loop_destroy(r->loop);
-    r->loop = NULL;
+/** Runs so many ticks: on its thread, to its end, or step by step. */
+static inline void rig_go(rig *self, int threaded, uint64_t ticks) {
+    if (threaded) {
+        rig_run(self);
+    } else {
+        assert_int_equal(knurl_loop_step(self->loop, ticks), KNURL_OK);
+    }
+}
+
+static inline void rig_destroy(rig *self) {
+    knurl_loop_destroy(self->loop);
+    self->loop = NULL;
+}
+
+static rig r; /* 400 KiB; reset by begin_rig() */
+
+static inline int begin_rig(void **state) {
+    (void)state;
+    rig_init(&r);
+    return 0;
+}
+
+/** Also after a failed test: no thread may still use the rig that the next test resets. */
+static inline int end_rig(void **state) {
+    (void)state;
+    rig_destroy(&r);
+    return 0;
 }
 
 #endif

@@ -9,8 +9,6 @@
 
 #include "base/vec3.h"
 
-static rig r; /* reset by each test */
-
 /* Additional behaviour of this rig's device. */
 static struct {
     uint64_t reopens;        /* atomic: tries */
@@ -56,15 +54,9 @@ static void init(void) {
     extra.start = r.now;
 }
 
-static int begin_rig(void **state) {
+static int begin(void **state) {
     (void)state;
     init();
-    return 0;
-}
-
-static int end_rig(void **state) {
-    (void)state;
-    rig_destroy(&r);
     return 0;
 }
 

@@ -4,7 +4,7 @@
 
 /* --- lost and found --- */
 
-TEST_WITH(a_stepped_loop_looks_for_its_device_every_beat_and_comes_back_by_the_ramp, begin_rig, end_rig) {
+TEST_WITH(a_stepped_loop_looks_for_its_device_every_beat_and_comes_back_by_the_ramp, begin, end_rig) {
     r.desc.reconnect = 1;
     r.reads_left = 70;
     extra.fails = 9;
@@ -48,11 +48,7 @@ TEST_WITH(without_reconnect_a_lost_device_ends_the_loop_and_nobody_looks_for_it,
         r.desc.reconnect = 0;
         r.reads_left = 70;
         rig_create(&r);
-        if (threaded) {
-            rig_run(&r);
-        } else {
-            assert_int_equal(knurl_loop_step(r.loop, 1000), KNURL_OK);
-        }
+        rig_go(&r, threaded, 1000);
         assert_int_equal(rig_stats(&r).state, KNURL_LOOP_LOST);
         assert_int_equal(rig_stats(&r).ticks, 70);
         assert_int_equal(rig_stats(&r).absences, 1);
@@ -140,7 +136,7 @@ TEST_WITH(a_loop_can_be_destroyed_in_every_state, NULL, end_rig) {
 }
 
 /* A loss noticed while writing is handled like one noticed while reading. */
-TEST_WITH(a_device_that_is_lost_while_it_is_written_is_halted_and_its_force_resumes, begin_rig, end_rig) {
+TEST_WITH(a_device_that_is_lost_while_it_is_written_is_halted_and_its_force_resumes, begin, end_rig) {
     r.desc.reconnect = 1;
     r.writes_left = 70;
     rig_create(&r);
@@ -153,7 +149,7 @@ TEST_WITH(a_device_that_is_lost_while_it_is_written_is_halted_and_its_force_resu
 
 /* --- beats without a position --- */
 
-TEST_WITH(before_the_first_tick_nothing_is_resumed, begin_rig, end_rig) {
+TEST_WITH(before_the_first_tick_nothing_is_resumed, begin, end_rig) {
     extra.not_ready_to = 12;
     rig_create(&r);
     assert_int_equal(knurl_loop_step(r.loop, 100), KNURL_OK);
@@ -163,7 +159,7 @@ TEST_WITH(before_the_first_tick_nothing_is_resumed, begin_rig, end_rig) {
     check_ramp_up(12);
 }
 
-TEST_WITH(a_beat_without_a_position_writes_no_force_and_asks_for_none, begin_rig, end_rig) {
+TEST_WITH(a_beat_without_a_position_writes_no_force_and_asks_for_none, begin, end_rig) {
     extra.not_ready_from = 50;
     extra.not_ready_to = 60;
     rig_create(&r);
@@ -211,7 +207,7 @@ static knurl_result write_and_see_halt(knurl_device *device, const double force[
 }
 
 /* An I/O thread still has the old force, which must not be played between the halt and the ramp. */
-TEST_WITH(a_halt_lasts_until_the_force_that_begins_the_ramp_is_written, begin_rig, end_rig) {
+TEST_WITH(a_halt_lasts_until_the_force_that_begins_the_ramp_is_written, begin, end_rig) {
     extra_driver.write = write_and_see_halt;
     surface_parts parts = surface_plane();
     SCOPED_SCENE *scene = scene_of(&parts);
@@ -228,7 +224,7 @@ TEST_WITH(a_halt_lasts_until_the_force_that_begins_the_ramp_is_written, begin_ri
     rig_destroy(&r);
 }
 
-TEST_WITH(after_a_halt_the_force_comes_back_by_the_ramp, begin_rig, end_rig) {
+TEST_WITH(after_a_halt_the_force_comes_back_by_the_ramp, begin, end_rig) {
     rig_create(&r);
     assert_int_equal(knurl_loop_step(r.loop, 50), KNURL_OK);
     knurl_device_halt(&r.device);

@@ -35,11 +35,7 @@ TEST_WITH(without_a_sign_of_life_the_force_goes_down_by_the_ramp_and_comes_back_
         r.desc.heartbeat_s = 0.05;
         r.desc.tick_limit = threaded ? 130 : 0;
         rig_create(&r);
-        if (threaded) {
-            rig_run(&r); /* the same by the test's clock */
-        } else {
-            assert_int_equal(knurl_loop_step(r.loop, 130), KNURL_OK);
-        }
+        rig_go(&r, threaded, 130);
         for (int k = 0; k < 49; k++) {
             CHECK_SAME(r.written[k][1], 1.0L);
         }
@@ -66,7 +62,7 @@ TEST_WITH(without_a_sign_of_life_the_force_goes_down_by_the_ramp_and_comes_back_
     }
 }
 
-TEST_WITH(with_signs_of_life_in_time_nothing_happens, begin_rig, end_rig) {
+TEST_WITH(with_signs_of_life_in_time_nothing_happens, begin, end_rig) {
     r.desc.heartbeat_s = 0.02;
     rig_create(&r);
     for (int frame = 0; frame < 60; frame++) {
@@ -79,7 +75,7 @@ TEST_WITH(with_signs_of_life_in_time_nothing_happens, begin_rig, end_rig) {
     CHECK_EVENTS(0);
 }
 
-TEST_WITH(a_game_that_dies_and_comes_back_half_way_is_taken_from_there, begin_rig, end_rig) {
+TEST_WITH(a_game_that_dies_and_comes_back_half_way_is_taken_from_there, begin, end_rig) {
     r.desc.heartbeat_s = 0.01;
     rig_create(&r);
     assert_int_equal(knurl_loop_step(r.loop, 20), KNURL_OK);
@@ -94,7 +90,7 @@ TEST_WITH(a_game_that_dies_and_comes_back_half_way_is_taken_from_there, begin_ri
 }
 
 /* The force returns with the game's heartbeats, and that is when it is reported. */
-TEST_WITH(while_the_game_gives_no_sign_of_life_nothing_is_resumed, begin_rig, end_rig) {
+TEST_WITH(while_the_game_gives_no_sign_of_life_nothing_is_resumed, begin, end_rig) {
     r.desc.heartbeat_s = 0.02;
     extra.not_ready_from = 100;
     extra.not_ready_to = 110;
