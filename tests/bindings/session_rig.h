@@ -6,6 +6,7 @@
 #include "parts.h"
 
 #include "support/scenes.h"
+#include "support/wait.h"
 
 #include "base/system.h"
 
@@ -42,6 +43,11 @@ static inline void open_session(knurl_session *s, const knurl_session_desc *desc
     assert_int_equal(result, KNURL_OK);
 }
 
+static inline void open_with(knurl_session *s, const char *device, const char *stroke) {
+    const knurl_session_desc desc = describe(device, stroke);
+    open_session(s, &desc);
+}
+
 /** A smooth plate of 0.1 x 0.1 m, front towards +z, about (x, y, z). */
 static inline knurl_surface_id add_plate(knurl_session *s, double x, double y, double z) {
     surface_parts parts = surface_plane();
@@ -73,6 +79,11 @@ static inline void begin(knurl_session *s) {
     assert_int_equal(knurl_session_lay_stroke(s, &outside), KNURL_OK);
     assert_int_equal(knurl_loop_create(&desc, &s->loop), KNURL_OK);
     s->runs = 1;
+}
+
+static inline void begin_with(knurl_session *s, const char *device, const char *stroke) {
+    open_with(s, device, stroke);
+    begin(s);
 }
 
 static inline void step(knurl_session *s, uint64_t ticks) {
@@ -110,18 +121,8 @@ static inline void check_no_event(knurl_session *s) {
     assert_true(event.kind == -1 && event.surface == 7); /* untouched */
 }
 
-/** A condition that comes true by itself. */
-#define PATIENCE_NS INT64_C(20000000000)
-
-#define CHECK_UNTIL(s, condition)                                                                                      \
-    do {                                                                                                               \
-        const int64_t begin_ = knurl_system_now_ns();                                                                  \
-        while (!(condition)) {                                                                                         \
-            assert_true(knurl_system_now_ns() - begin_ < PATIENCE_NS);                                                 \
-            knurl_system_sleep_until_ns(knurl_system_now_ns() + 1000000);                                              \
-            knurl_session_update(s);                                                                                   \
-        }                                                                                                              \
-    } while (0)
+/** Waits until `condition` is true, with updates. */
+#define CHECK_UNTIL(s, condition) WAIT_FOR((knurl_session_update(s), (condition)))
 
 static inline knurl_session_state state_of(const knurl_session *s) {
     knurl_session_state state;

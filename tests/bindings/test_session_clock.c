@@ -20,47 +20,58 @@ typedef struct rig {
     uint64_t ticks;
 } rig;
 
+static rig r; /* reset by set_up() */
+
+static int end(void **state) {
+    (void)state;
+    knurl_session_destroy(r.s);
+    memset(&r, 0, sizeof r);
+    return 0;
+}
+
 /* A finger 1 mm deep in a long plate with ridges. */
-static void set_up(rig *r, int32_t method, uint32_t clock) {
-    const knurl_session_desc desc = describe("fake", "");
+static void set_up(int32_t method, uint32_t clock) {
     surface_parts parts = surface_plane();
-    memset(r, 0, sizeof *r);
-    r->s = make_session();
+    (void)end(NULL);
+    r.s = make_session();
     set_grating(&parts, method, RIDGES, 0.0, 1e-4);
     parts.plane.half_extents[0] = 1.0;
-    r->plate = add_surface(knurl_session_get_scene(r->s), &parts);
-    r->way.clock = clock;
-    open_session(r->s, &desc);
-    begin(r->s);
-    press(r->s, 0.0, 0.0);
+    r.plate = add_surface(knurl_session_get_scene(r.s), &parts);
+    r.way.clock = clock;
+    begin_with(r.s, "fake", "");
+    press(r.s, 0.0, 0.0);
 }
 
 /* Advances to a time, s, and records the heights. */
-static void go_to(rig *r, double time) {
+static void go_to(double time) {
     float rows[2 * 256];
     const uint64_t due = (uint64_t)(time * 1000.0 + 1e-9);
-    while (r->ticks < due) {
-        const uint32_t count = (uint32_t)(due - r->ticks < 256 ? due - r->ticks : 256);
-        step(r->s, count);
-        assert_int_equal(knurl_session_get_history(r->s, count, rows), count);
+    while (r.ticks < due) {
+        const uint32_t count = (uint32_t)(due - r.ticks < 256 ? due - r.ticks : 256);
+        step(r.s, count);
+        assert_int_equal(knurl_session_get_history(r.s, count, rows), count);
         for (uint32_t i = 0; i < count; i++) {
-            r->heights[r->ticks++] = rows[2 * i];
+            r.heights[r.ticks++] = rows[2 * i];
         }
     }
 }
 
-static void move_to(rig *r, double time) {
+static void move_to(double time) {
     const double position[3] = {SPEED * time, 0.0, 0.0};
-    assert_int_equal(knurl_session_move_surface(r->s, r->plate, &r->way, position, upright), KNURL_OK);
+    assert_int_equal(knurl_session_move_surface(r.s, r.plate, &r.way, position, upright), KNURL_OK);
+}
+
+static void tell(uint32_t clock, double time) {
+    assert_int_equal(knurl_session_tell_time(r.s, clock, time), KNURL_OK);
 }
 
 /* The shortest and the longest time between rises, in ticks, once the rhythm is known. */
-static void measure_gaps(const rig *r, double *shortest, double *longest) {
+static void measure_gaps(double *shortest, double *longest) {
     uint64_t last = 0;
     *shortest = HUGE_VAL;
     *longest = 0.0;
-    for (uint64_t i = (uint64_t)(1000.0 * WARM_UP_S); i < r->ticks; i++) {
-        if (r->heights[i - 1] < 0.0F && r->heights[i] > 0.0F) {
+    for (uint64_t i = (uint64_t)(1000.0 * WARM_UP_S); i < r.ticks; i++) {
+        if (r.heights[i - 1] < 0.0F && r.heights[i] > 0.0F) {
             if (last > 0) {
                 *shortest = fmin(*shortest, (double)(i - last));
                 *longest = fmax(*longest, (double)(i - last));
@@ -70,11 +81,10 @@ static void measure_gaps(const rig *r, double *shortest, double *longest) {
     }
 }
 
-static int check_gaps(rig *r, const char *what, double fps, double rate) {
+static int check_gaps(const char *what, double fps, double rate) {
     double shortest;
     double longest;
-    measure_gaps(r, &shortest, &longest);
-    knurl_session_destroy(r->s);
+    measure_gaps(&shortest, &longest);
     if (shortest >= GAP - 1.0 && longest <= GAP + 1.0) {
         return 0;
     }
@@ -84,7 +94,6 @@ static int check_gaps(rig *r, const char *what, double fps, double rate) {
 
 static const double frame_rates[] = {30, 45, 60, 72, 90, 120, 144, 165, 240};
 static const double step_rates[] = {30, 50, 60, 75, 100, 120, 144, 240};
-#define COUNT(array) (sizeof(array) / sizeof *(array))
 
 /* An even pseudo-random number, -1 to 1. */
 static double noise(uint32_t *seed) {
@@ -95,49 +104,48 @@ static double noise(uint32_t *seed) {
 /* Physics at one rate, shown at another: a frame shows the steps that were due when it began. `unsteady`: share of a
  * frame by which frames come late or early. */
 static int play_steps(int32_t method, double fps, double rate, double unsteady, int is_guess) {
-    rig r;
     uint32_t seed = 1;
     double steps = 0.0;
-    set_up(&r, method, is_guess ? KNURL_SESSION_FRAMES : KNURL_SESSION_STEPS);
+    set_up(method, is_guess ? KNURL_SESSION_FRAMES : KNURL_SESSION_STEPS);
     r.way.is_guess = (uint32_t)is_guess;
     for (double frame = 1.0; frame < fps * (WARM_UP_S + MEASURED_S); frame += 1.0) {
         const double now = (frame + 0.5 * unsteady * noise(&seed)) / fps;
         const double done = floor(now * rate + 1e-9);
-        go_to(&r, now);
-        assert_int_equal(knurl_session_tell_time(r.s, KNURL_SESSION_FRAMES, frame / fps), KNURL_OK);
-        assert_int_equal(knurl_session_tell_time(r.s, KNURL_SESSION_STEPS, done / rate), KNURL_OK);
+        go_to(now);
+        tell(KNURL_SESSION_FRAMES, frame / fps);
+        tell(KNURL_SESSION_STEPS, done / rate);
         if (done > steps) {
-            move_to(&r, done / rate);
+            move_to(done / rate);
         }
         steps = done;
     }
-    return check_gaps(&r, unsteady > 0.0 ? "unsteady" : "steady", fps, rate);
+    return check_gaps(unsteady > 0.0 ? "unsteady" : "steady", fps, rate);
 }
 
 static int play_all_steps(double unsteady, int is_guess) {
     int failed = 0;
-    for (size_t i = 0; i < COUNT(frame_rates) * COUNT(step_rates); i++) {
-        failed += play_steps(KNURL_METHOD_S1, frame_rates[i / COUNT(step_rates)], step_rates[i % COUNT(step_rates)],
-                             unsteady, is_guess);
+    for (size_t i = 0; i < COUNT_OF(frame_rates) * COUNT_OF(step_rates); i++) {
+        failed += play_steps(KNURL_METHOD_S1, frame_rates[i / COUNT_OF(step_rates)],
+                             step_rates[i % COUNT_OF(step_rates)], unsteady, is_guess);
     }
     return failed;
 }
 
-TEST(surfaces_moved_by_physics_are_felt_evenly_at_any_pair_of_rates) {
+TEST_WITH(surfaces_moved_by_physics_are_felt_evenly_at_any_pair_of_rates, NULL, end) {
     assert_int_equal(play_all_steps(0.0, 0), 0);
 }
 
-TEST(surfaces_moved_by_physics_are_felt_evenly_if_frames_come_unevenly) {
+TEST_WITH(surfaces_moved_by_physics_are_felt_evenly_if_frames_come_unevenly, NULL, end) {
     assert_int_equal(play_all_steps(0.4, 0), 0);
 }
 
-TEST(surfaces_moved_by_physics_are_felt_evenly_if_they_were_taken_for_surfaces_moved_by_frames) {
+TEST_WITH(surfaces_moved_by_physics_are_felt_evenly_if_they_were_taken_for_surfaces_moved_by_frames, NULL, end) {
     assert_int_equal(play_all_steps(0.0, 1) + play_all_steps(0.4, 1), 0);
 }
 
-TEST(surfaces_moved_by_physics_are_felt_evenly_with_the_default_method) {
+TEST_WITH(surfaces_moved_by_physics_are_felt_evenly_with_the_default_method, NULL, end) {
     int failed = 0;
-    for (size_t i = 0; i < COUNT(frame_rates); i++) {
+    for (size_t i = 0; i < COUNT_OF(frame_rates); i++) {
         failed += play_steps(KNURL_METHOD_DEFAULT, frame_rates[i], 60.0, 0.0, 0);
     }
     assert_int_equal(failed, 0);
@@ -145,101 +153,91 @@ TEST(surfaces_moved_by_physics_are_felt_evenly_with_the_default_method) {
 
 /* A script moves objects by each frame's length, and frames have uneven lengths. */
 static int play_frames(double fps, double rate, int is_guess) {
-    rig r;
     uint32_t seed = 1;
-    set_up(&r, KNURL_METHOD_S1, is_guess ? KNURL_SESSION_STEPS : KNURL_SESSION_FRAMES);
+    set_up(KNURL_METHOD_S1, is_guess ? KNURL_SESSION_STEPS : KNURL_SESSION_FRAMES);
     r.way.is_guess = (uint32_t)is_guess;
     for (double frame = 1.0; frame < fps * (WARM_UP_S + MEASURED_S); frame += 1.0) {
         const double now = (frame + 0.2 * noise(&seed)) / fps;
-        go_to(&r, now);
-        assert_int_equal(knurl_session_tell_time(r.s, KNURL_SESSION_FRAMES, now), KNURL_OK);
-        assert_int_equal(knurl_session_tell_time(r.s, KNURL_SESSION_STEPS, floor(now * rate) / rate), KNURL_OK);
-        move_to(&r, now);
+        go_to(now);
+        tell(KNURL_SESSION_FRAMES, now);
+        tell(KNURL_SESSION_STEPS, floor(now * rate) / rate);
+        move_to(now);
     }
-    return check_gaps(&r, "frames", fps, rate);
+    return check_gaps("frames", fps, rate);
 }
 
-TEST(surfaces_moved_by_frames_are_felt_evenly) {
+TEST_WITH(surfaces_moved_by_frames_are_felt_evenly, NULL, end) {
     int failed = 0;
-    for (size_t i = 0; i < COUNT(frame_rates); i++) {
+    for (size_t i = 0; i < COUNT_OF(frame_rates); i++) {
         failed += play_frames(frame_rates[i], 50.0, 0);
     }
     assert_int_equal(failed, 0);
 }
 
-TEST(surfaces_moved_by_frames_are_felt_evenly_if_they_were_taken_for_surfaces_moved_by_physics) {
+TEST_WITH(surfaces_moved_by_frames_are_felt_evenly_if_they_were_taken_for_surfaces_moved_by_physics, NULL, end) {
     int failed = 0;
-    for (size_t i = 0; i < COUNT(frame_rates) * COUNT(step_rates); i++) {
-        failed += play_frames(frame_rates[i / COUNT(step_rates)], step_rates[i % COUNT(step_rates)], 1);
+    for (size_t i = 0; i < COUNT_OF(frame_rates) * COUNT_OF(step_rates); i++) {
+        failed += play_frames(frame_rates[i / COUNT_OF(step_rates)], step_rates[i % COUNT_OF(step_rates)], 1);
     }
     assert_int_equal(failed, 0);
 }
 
 /* A body that sleeps for two of three steps. */
-TEST(surfaces_that_move_less_often_than_their_clock_are_felt_evenly) {
-    rig r;
-    set_up(&r, KNURL_METHOD_S1, KNURL_SESSION_STEPS);
+TEST_WITH(surfaces_that_move_less_often_than_their_clock_are_felt_evenly, NULL, end) {
+    set_up(KNURL_METHOD_S1, KNURL_SESSION_STEPS);
     for (int steps = 1; (double)steps / 60.0 < WARM_UP_S + MEASURED_S; steps++) {
-        go_to(&r, (double)steps / 60.0);
-        assert_int_equal(knurl_session_tell_time(r.s, KNURL_SESSION_STEPS, (double)steps / 60.0), KNURL_OK);
+        go_to((double)steps / 60.0);
+        tell(KNURL_SESSION_STEPS, (double)steps / 60.0);
         if (steps % 3 == 0) {
-            move_to(&r, (double)steps / 60.0);
+            move_to((double)steps / 60.0);
         }
     }
-    assert_int_equal(check_gaps(&r, "seldom", 60.0, 20.0), 0);
+    assert_int_equal(check_gaps("seldom", 60.0, 20.0), 0);
 }
 
 /* The start of the engine's clock does not matter, nor days of run time. */
-TEST(a_clock_may_begin_anywhere) {
-    rig r;
-    set_up(&r, KNURL_METHOD_S1, KNURL_SESSION_STEPS);
+TEST_WITH(a_clock_may_begin_anywhere, NULL, end) {
+    set_up(KNURL_METHOD_S1, KNURL_SESSION_STEPS);
     for (int steps = 1; (double)steps / 60.0 < WARM_UP_S + MEASURED_S; steps++) {
-        go_to(&r, (double)steps / 60.0);
-        assert_int_equal(knurl_session_tell_time(r.s, KNURL_SESSION_STEPS, 1e6 + (double)steps / 60.0), KNURL_OK);
-        move_to(&r, (double)steps / 60.0);
+        go_to((double)steps / 60.0);
+        tell(KNURL_SESSION_STEPS, 1e6 + (double)steps / 60.0);
+        move_to((double)steps / 60.0);
     }
-    assert_int_equal(check_gaps(&r, "late", 60.0, 60.0), 0);
+    assert_int_equal(check_gaps("late", 60.0, 60.0), 0);
 }
 
 /* After a frame of a second, or a clock that was set back, moves are again late by no more than two frames. */
-TEST(a_stall_does_not_last) {
-    rig r;
+TEST_WITH(a_stall_does_not_last, NULL, end) {
     double time = 0.0;
-    set_up(&r, KNURL_METHOD_S1, KNURL_SESSION_STEPS);
+    set_up(KNURL_METHOD_S1, KNURL_SESSION_STEPS);
     for (int steps = 1; steps < 120; steps++) {
         time += steps == 60 ? 1.0 : 1.0 / 60.0;
-        go_to(&r, time);
-        assert_int_equal(knurl_session_tell_time(r.s, KNURL_SESSION_STEPS,
-                                                 steps < 90 ? (double)steps / 60.0 : (double)(steps - 90) / 60.0),
-                         KNURL_OK);
-        move_to(&r, (double)steps / 60.0);
+        go_to(time);
+        tell(KNURL_SESSION_STEPS, steps < 90 ? (double)steps / 60.0 : (double)(steps - 90) / 60.0);
+        move_to((double)steps / 60.0);
     }
     step(r.s, 40);
     const knurl_session_clock *c = &r.s->clocks[KNURL_SESSION_STEPS];
     const double late = c->time + c->lag - time;
     assert_true(late > 0.0 && late < 2.5 / 60.0);
-    knurl_session_destroy(r.s);
 }
 
 /* Physics at 50 steps a second, shown at 60 frames; after 60 frames its clock begins again. */
-TEST(a_right_guess_survives_a_clock_that_is_set_back) {
-    rig r;
+TEST_WITH(a_right_guess_survives_a_clock_that_is_set_back, NULL, end) {
     double steps = 0.0;
-    set_up(&r, KNURL_METHOD_S1, KNURL_SESSION_STEPS);
+    set_up(KNURL_METHOD_S1, KNURL_SESSION_STEPS);
     r.way.is_guess = 1;
     for (double frame = 1.0; frame < 120.0; frame += 1.0) {
         const double done = floor(frame * 50.0 / 60.0 + 1e-9);
-        go_to(&r, frame / 60.0);
-        assert_int_equal(knurl_session_tell_time(r.s, KNURL_SESSION_FRAMES, frame / 60.0), KNURL_OK);
-        assert_int_equal(knurl_session_tell_time(r.s, KNURL_SESSION_STEPS, (frame < 60.0 ? done : done - 50.0) / 50.0),
-                         KNURL_OK);
+        go_to(frame / 60.0);
+        tell(KNURL_SESSION_FRAMES, frame / 60.0);
+        tell(KNURL_SESSION_STEPS, (frame < 60.0 ? done : done - 50.0) / 50.0);
         if (done > steps) {
-            move_to(&r, done / 50.0);
+            move_to(done / 50.0);
             assert_int_equal(r.way.clock, KNURL_SESSION_STEPS);
         }
         steps = done;
     }
-    knurl_session_destroy(r.s);
 }
 
 /* The five ways in which a Unity game moves things, with the clock that the package guesses for each. Physics runs 50
@@ -258,14 +256,14 @@ static const struct way {
 };
 
 /* Hz: 10 ridges at a time, so that whole ticks are within a hundredth. */
-static void measure_frequencies(const rig *r, double *lowest, double *highest) {
+static void measure_frequencies(double *lowest, double *highest) {
     enum { RIDGES_AT_A_TIME = 10 };
     uint64_t rises[RIDGES_AT_A_TIME];
     uint64_t count = 0;
     *lowest = HUGE_VAL;
     *highest = 0.0;
-    for (uint64_t i = (uint64_t)(1000.0 * WARM_UP_S); i < r->ticks; i++) {
-        if (r->heights[i - 1] < 0.0F && r->heights[i] > 0.0F) {
+    for (uint64_t i = (uint64_t)(1000.0 * WARM_UP_S); i < r.ticks; i++) {
+        if (r.heights[i - 1] < 0.0F && r.heights[i] > 0.0F) {
             uint64_t *before = &rises[count % RIDGES_AT_A_TIME];
             if (count >= RIDGES_AT_A_TIME) {
                 const double frequency = 1000.0 * RIDGES_AT_A_TIME / (double)(i - *before);
@@ -280,31 +278,29 @@ static void measure_frequencies(const rig *r, double *lowest, double *highest) {
 
 static void play_way(const struct way *way, double fps, double *lowest, double *highest) {
     const double rate = 50.0;
-    rig r;
     double steps = 0.0;
-    set_up(&r, KNURL_METHOD_S1, way->guess);
+    set_up(KNURL_METHOD_S1, way->guess);
     r.way.is_guess = 1;
     for (double frame = 1.0; frame < fps * (WARM_UP_S + MEASURED_S); frame += 1.0) {
         const double now = frame / fps;
         const double done = floor(now * rate + 1e-9);
-        go_to(&r, now);
-        assert_int_equal(knurl_session_tell_time(r.s, KNURL_SESSION_FRAMES, now), KNURL_OK);
-        assert_int_equal(knurl_session_tell_time(r.s, KNURL_SESSION_STEPS, done / rate), KNURL_OK);
+        go_to(now);
+        tell(KNURL_SESSION_FRAMES, now);
+        tell(KNURL_SESSION_STEPS, done / rate);
         if (!way->is_in_steps || done > steps) {
-            move_to(&r, (way->is_in_steps ? done / rate : now) - way->late);
+            move_to((way->is_in_steps ? done / rate : now) - way->late);
         }
         steps = done;
     }
-    measure_frequencies(&r, lowest, highest);
-    knurl_session_destroy(r.s);
+    measure_frequencies(lowest, highest);
 }
 
-TEST(each_way_of_moving_in_unity_is_felt_at_its_frequency) {
+TEST_WITH(each_way_of_moving_in_unity_is_felt_at_its_frequency, NULL, end) {
     static const double rates[] = {30, 45, 60, 72, 90, 120, 144};
     int failed = 0;
-    for (size_t w = 0; w < COUNT(ways); w++) {
+    for (size_t w = 0; w < COUNT_OF(ways); w++) {
         print_message("%-52s", ways[w].name);
-        for (size_t i = 0; i < COUNT(rates); i++) {
+        for (size_t i = 0; i < COUNT_OF(rates); i++) {
             double lowest;
             double highest;
             play_way(&ways[w], rates[i], &lowest, &highest);
@@ -317,10 +313,9 @@ TEST(each_way_of_moving_in_unity_is_felt_at_its_frequency) {
     assert_int_equal(failed, 0);
 }
 
-TEST(bad_clocks_are_refused) {
-    rig r;
+TEST_WITH(bad_clocks_are_refused, NULL, end) {
     const double position[3] = {0.0, 0.0, 0.0};
-    set_up(&r, KNURL_METHOD_S1, KNURL_SESSION_STEPS);
+    set_up(KNURL_METHOD_S1, KNURL_SESSION_STEPS);
     assert_int_equal(knurl_session_tell_time(r.s, KNURL_SESSION_CLOCKS, 0.0), KNURL_ERROR_ARGUMENT);
     check_message("clock");
     assert_int_equal(knurl_session_tell_time(r.s, KNURL_SESSION_STEPS, NAN), KNURL_ERROR_ARGUMENT);
@@ -328,22 +323,19 @@ TEST(bad_clocks_are_refused) {
     r.way.clock = KNURL_SESSION_CLOCKS;
     CHECK_REFUSED(knurl_session_move_surface(r.s, r.plate, &r.way, position, upright), KNURL_ERROR_ARGUMENT, r.way);
     check_message("clock");
-    knurl_session_destroy(r.s);
 }
 
 /* A film that is written, of 60 frames to a second of the game, at 240 frames a second: the plate comes up by 0.5 mm in
  * 12 s of the game, and is there 0.2 s after the last frame. */
-TEST(a_game_whose_clock_runs_fast_is_followed) {
-    rig r;
+TEST_WITH(a_game_whose_clock_runs_fast_is_followed, NULL, end) {
     double position[3] = {0.0, 0.0, 0.0};
-    set_up(&r, KNURL_METHOD_S1, KNURL_SESSION_FRAMES);
+    set_up(KNURL_METHOD_S1, KNURL_SESSION_FRAMES);
     for (int frame = 1; frame <= 720; frame++) {
         step(r.s, 4);
         position[2] = 0.0005 * frame / 720.0;
-        assert_int_equal(knurl_session_tell_time(r.s, KNURL_SESSION_FRAMES, frame / 60.0), KNURL_OK);
+        tell(KNURL_SESSION_FRAMES, frame / 60.0);
         assert_int_equal(knurl_session_move_surface(r.s, r.plate, &r.way, position, upright), KNURL_OK);
     }
     step(r.s, 200);
     CHECK_CLOSE(state_of(r.s).proxy[2], 0.0005, 1e-12);
-    knurl_session_destroy(r.s);
 }

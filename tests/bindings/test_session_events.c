@@ -12,50 +12,49 @@ typedef struct three {
     knurl_surface_id plate[3];
 } three;
 
-static void set_up(three *t, const char *device) {
-    const knurl_session_desc desc = describe(device, "");
-    t->s = make_session();
+static three t; /* begun by set_up() */
+
+static int end(void **state) {
+    (void)state;
+    knurl_session_destroy(t.s);
+    memset(&t, 0, sizeof t);
+    return 0;
+}
+
+static void set_up(const char *device) {
+    (void)end(NULL);
+    t.s = make_session();
     for (int i = 0; i < 3; i++) {
-        t->plate[i] = add_plate(t->s, 0.2 * i, 0.0, 0.0);
+        t.plate[i] = add_plate(t.s, 0.2 * i, 0.0, 0.0);
     }
-    open_session(t->s, &desc);
-    begin(t->s);
+    begin_with(t.s, device, "");
 }
 
 /* The same without plates. */
 static knurl_session *set_up_nothing(const char *device) {
-    const knurl_session_desc desc = describe(device, "");
-    knurl_session *s = make_session();
-    open_session(s, &desc);
-    begin(s);
-    return s;
+    t.s = make_session();
+    begin_with(t.s, device, "");
+    return t.s;
 }
 
-static void press_on(const three *t, int i) {
-    press(t->s, 0.2 * i, 0.0);
+static void press_on(int i) {
+    press(t.s, 0.2 * i, 0.0);
 }
 
 /* The first plate is touched, and that was reported. */
-static void set_up_touching(three *t, const char *device) {
-    set_up(t, device);
-    press_on(t, 0);
-    knurl_session_update(t->s);
-    check_event(t->s, STARTED, t->plate[0]);
+static void set_up_touching(const char *device) {
+    set_up(device);
+    press_on(0);
+    knurl_session_update(t.s);
+    check_event(t.s, STARTED, t.plate[0]);
 }
 
-/* There are no more events. */
-static void check_end(knurl_session *s) {
-    check_no_event(s);
-    knurl_session_destroy(s);
-}
-
-TEST(a_touch_is_reported_at_its_beginning_and_end) {
-    three t;
-    set_up(&t, "fake");
+TEST_WITH(a_touch_is_reported_at_its_beginning_and_end, NULL, end) {
+    set_up("fake");
     lift(t.s);
     knurl_session_update(t.s);
     check_no_event(t.s);
-    press_on(&t, 0);
+    press_on(0);
     check_no_event(t.s); /* before an update */
     knurl_session_update(t.s);
     assert_true(state_of(t.s).surface == 0 && state_of(t.s).in_contact == 1);
@@ -67,20 +66,20 @@ TEST(a_touch_is_reported_at_its_beginning_and_end) {
     assert_true(state_of(t.s).surface == t.plate[0] && state_of(t.s).in_contact == 0);
     check_event(t.s, ENDED, t.plate[0]);
     assert_true(state_of(t.s).surface == 0);
-    check_end(t.s);
+    check_no_event(t.s);
 }
 
 /* "+1-1": the second plate was touched and left. */
-static void check_touches(const three *t, const char *told) {
+static void check_touches(const char *told) {
     for (; *told; told += 2) {
-        check_event(t->s, told[0] == '+' ? STARTED : ENDED, t->plate[told[1] - '0']);
+        check_event(t.s, told[0] == '+' ? STARTED : ENDED, t.plate[told[1] - '0']);
     }
-    check_no_event(t->s);
+    check_no_event(t.s);
 }
 
 /* Moves within a frame: a digit presses on that plate, '^' lifts. A plate that is touched again in the same frame was
  * never left, and each plate gets one event of a kind. */
-TEST(touches_of_a_frame_are_reported_once_and_in_their_order) {
+TEST_WITH(touches_of_a_frame_are_reported_once_and_in_their_order, NULL, end) {
     static const struct {
         int is_touching; /* the first plate, and its event was read */
         const char *frames[2], *told[2];
@@ -91,57 +90,51 @@ TEST(touches_of_a_frame_are_reported_once_and_in_their_order) {
         {1, {"212", "01010^"}, {"-0+1-1+2", "-2+0-0+1-1"}},
     };
     for (size_t i = 0; i < COUNT_OF(cases); i++) {
-        three t;
-        (cases[i].is_touching ? set_up_touching : set_up)(&t, "fake");
+        (cases[i].is_touching ? set_up_touching : set_up)("fake");
         for (int frame = 0; frame < 2; frame++) {
             for (const char *move = cases[i].frames[frame]; *move; move++) {
                 if (*move == '^') {
                     lift(t.s);
                 } else {
-                    press_on(&t, *move - '0');
+                    press_on(*move - '0');
                 }
             }
             knurl_session_update(t.s);
-            check_touches(&t, cases[i].told[frame]);
+            check_touches(cases[i].told[frame]);
         }
-        knurl_session_destroy(t.s);
     }
 }
 
-TEST(removing_a_surface_ends_its_contact) {
-    three t;
-    set_up_touching(&t, "fake");
+TEST_WITH(removing_a_surface_ends_its_contact, NULL, end) {
+    set_up_touching("fake");
     assert_int_equal(knurl_scene_remove_surface(t.s->scene, t.plate[0]), KNURL_OK);
     knurl_session_update(t.s); /* the last tick still has it */
     check_event(t.s, ENDED, t.plate[0]);
     step(t.s, 1);
     knurl_session_update(t.s);
-    check_end(t.s);
+    check_no_event(t.s);
 }
 
-TEST(a_touch_of_a_removed_surface_is_not_reported) {
-    three t;
-    set_up(&t, "fake");
-    press_on(&t, 0);
-    press_on(&t, 1);
+TEST_WITH(a_touch_of_a_removed_surface_is_not_reported, NULL, end) {
+    set_up("fake");
+    press_on(0);
+    press_on(1);
     knurl_session_update(t.s);
     assert_int_equal(knurl_scene_remove_surface(t.s->scene, t.plate[0]), KNURL_OK);
     check_event(t.s, STARTED, t.plate[1]);
     assert_int_equal(knurl_scene_remove_surface(t.s->scene, t.plate[1]), KNURL_OK);
-    press_on(&t, 2);
+    press_on(2);
     knurl_session_update(t.s);
-    check_touches(&t, "-1+2");
-    knurl_session_destroy(t.s);
+    check_touches("-1+2");
 }
 
-TEST(each_start_has_its_end_even_if_fetched_late) {
-    three t;
+TEST_WITH(each_start_has_its_end_even_if_fetched_late, NULL, end) {
     knurl_session_event event;
     knurl_surface_id touched = 0;
     uint32_t count = 0;
-    set_up(&t, "fake");
+    set_up("fake");
     for (int i = 0; i < 1000; i++) {
-        press_on(&t, i % 3);
+        press_on(i % 3);
         knurl_session_update(t.s);
     }
     while (knurl_session_next_event(t.s, &event)) {
@@ -151,43 +144,38 @@ TEST(each_start_has_its_end_even_if_fetched_late) {
         assert_true(++count <= 2 * KNURL_SESSION_TOUCHES);
     }
     assert_true(count > KNURL_SESSION_TOUCHES && touched == t.plate[999 % 3]);
-    knurl_session_destroy(t.s);
 }
 
-TEST(closing_in_the_middle_of_fetching_leaves_one_end) {
-    three t;
-    set_up(&t, "fake:?press_at=0.001");
-    press_on(&t, 0);
-    press_on(&t, 1);
-    press_on(&t, 2);
+TEST_WITH(closing_in_the_middle_of_fetching_leaves_one_end, NULL, end) {
+    set_up("fake:?press_at=0.001");
+    press_on(0);
+    press_on(1);
+    press_on(2);
     knurl_session_update(t.s);
     check_event(t.s, STARTED, t.plate[0]);
     knurl_session_close(t.s);
     assert_true(state_of(t.s).surface == 0);
     check_event(t.s, ENDED, t.plate[0]);
-    check_end(t.s);
+    check_no_event(t.s);
 }
 
-TEST(closing_before_anything_was_fetched_leaves_nothing) {
-    three t;
-    set_up(&t, "fake:?press_at=0.001");
-    press_on(&t, 0);
+TEST_WITH(closing_before_anything_was_fetched_leaves_nothing, NULL, end) {
+    set_up("fake:?press_at=0.001");
+    press_on(0);
     knurl_session_update(t.s);
     knurl_session_close(t.s);
-    check_end(t.s);
+    check_no_event(t.s);
 }
 
-TEST(opened_again_it_tells_the_old_end_first) {
+TEST_WITH(opened_again_it_tells_the_old_end_first, NULL, end) {
     const knurl_session_desc desc = describe("fake", "");
-    three t;
-    set_up_touching(&t, "fake");
+    set_up_touching("fake");
     knurl_session_close(t.s);
     open_session(t.s, &desc);
     begin(t.s);
-    press_on(&t, 0);
+    press_on(0);
     knurl_session_update(t.s);
-    check_touches(&t, "-0+0");
-    knurl_session_destroy(t.s);
+    check_touches("-0+0");
 }
 
 static void check_button(knurl_session *s, int32_t button, double pressed) {
@@ -198,7 +186,7 @@ static void check_button(knurl_session *s, int32_t button, double pressed) {
     CHECK_SAME(event.value, pressed);
 }
 
-TEST(a_button_is_reported_when_it_goes_down_and_when_it_comes_up) {
+TEST_WITH(a_button_is_reported_when_it_goes_down_and_when_it_comes_up, NULL, end) {
     knurl_session *s = set_up_nothing("fake:?press_at=0.05"); /* for 0.1 s */
     step(s, 50);
     knurl_session_update(s);
@@ -212,10 +200,10 @@ TEST(a_button_is_reported_when_it_goes_down_and_when_it_comes_up) {
     knurl_session_update(s);
     assert_int_equal(state_of(s).buttons, 0);
     check_button(s, 0, 0.0);
-    check_end(s);
+    check_no_event(s);
 }
 
-TEST(every_button_has_its_number) {
+TEST_WITH(every_button_has_its_number, NULL, end) {
     knurl_session *s = set_up_nothing("fake");
     step(s, 1);
     s->device->buttons = 0x80000005u;
@@ -227,7 +215,7 @@ TEST(every_button_has_its_number) {
     knurl_session_update(s);
     check_button(s, 0, 0.0);
     check_button(s, 31, 0.0);
-    check_end(s);
+    check_no_event(s);
 }
 
 static void check_fault(knurl_session *s, int32_t code, double value) {
@@ -240,7 +228,7 @@ static void check_fault(knurl_session *s, int32_t code, double value) {
 
 TEST(a_lost_device_is_reported_and_then_the_end) {
     knurl_session_desc desc = describe("fake:?lose_at=0.1", "");
-    knurl_session *s = make_session();
+    SCOPED_SESSION *s = make_session();
     const knurl_surface_id plate = add_plate(s, 0.0, 0.0, 0.0);
     desc.reconnect = 0;
     open_session(s, &desc);
@@ -259,11 +247,11 @@ TEST(a_lost_device_is_reported_and_then_the_end) {
     knurl_session_update(s);
     check_no_event(s); /* once */
     knurl_session_close(s);
-    check_end(s);
+    check_no_event(s);
 }
 
-TEST(a_device_that_comes_back_is_reported_and_goes_on) {
-    SCOPED_SESSION *s = set_up_nothing("fake:?lose_at=0.1");
+TEST_WITH(a_device_that_comes_back_is_reported_and_goes_on, NULL, end) {
+    knurl_session *s = set_up_nothing("fake:?lose_at=0.1");
     step(s, 300);
     knurl_session_update(s);
     check_fault(s, KNURL_FAULT_LOST, 0.0);
@@ -294,22 +282,21 @@ TEST(a_device_without_a_position_plays_nothing) {
     CHECK_SAME(now.hip[2], -0.001);
 }
 
-TEST(faults_come_with_their_values_after_touches_and_buttons) {
-    three t;
-    set_up(&t, "fake:?press_at=0.001");
-    press_on(&t, 0);
+TEST_WITH(faults_come_with_their_values_after_touches_and_buttons, NULL, end) {
+    set_up("fake:?press_at=0.001");
+    press_on(0);
     knurl_events_report(&t.s->device->events, KNURL_FAULT_SILENT, 0.012);
     knurl_session_update(t.s);
     check_event(t.s, STARTED, t.plate[0]);
     check_button(t.s, 0, 1.0);
     check_fault(t.s, KNURL_FAULT_SILENT, 0.012);
-    check_end(t.s);
+    check_no_event(t.s);
 }
 
 /* A handler that takes longer than a device that fails in every tick. */
-TEST(a_frame_ends_however_many_faults_there_are) {
+TEST_WITH(a_frame_ends_however_many_faults_there_are, NULL, end) {
     knurl_session_event event;
-    SCOPED_SESSION *s = set_up_nothing("fake");
+    knurl_session *s = set_up_nothing("fake");
     step(s, 1);
     knurl_events_report(&s->device->events, KNURL_FAULT_CORRUPT, 1.0);
     knurl_session_update(s);
@@ -325,11 +312,9 @@ TEST(a_frame_ends_however_many_faults_there_are) {
 /* 0.4 N for 0.1 s, and a hand that slides at 50 mm/s: the impulse on a touched body, and the state for a game. */
 TEST(state_tells_impulse_velocity_and_depth) {
     static const double rows[8] = {0.0, 0.0, 0.0, -0.001, 1.0, 0.05, 0.0, -0.001};
-    const knurl_session_desc desc = describe("fake", "");
     SCOPED_SESSION *s = make_session();
     (void)add_plate(s, 0.0, 0.0, 0.0);
-    open_session(s, &desc);
-    begin(s);
+    begin_with(s, "fake", "");
     s->board.period = 1e-3;
     press(s, 0.0, 0.0);
     step(s, 300);

@@ -11,15 +11,13 @@ static knurl_surface_id add_at(knurl_session *s, double x, double stiffness) {
 }
 
 TEST(a_surface_that_can_be_felt_needs_no_explanation) {
-    const knurl_session_desc desc = describe("fake", "");
     char text[64] = "?";
     SCOPED_SESSION *s = make_session();
     const knurl_surface_id plate = add_at(s, 0.0, 300.0);
     const knurl_surface_id far = add_at(s, 5.0, 1e6);
     knurl_session_explain(s, far, text, sizeof text);
     assert_string_equal(text, ""); /* closed: unknown */
-    open_session(s, &desc);
-    begin(s);
+    begin_with(s, "fake", "");
     knurl_session_explain(s, plate, text, sizeof text);
     assert_string_equal(text, "");
     knurl_session_explain(s, 0, text, sizeof text);
@@ -44,13 +42,11 @@ TEST(a_surface_out_of_reach_is_reported) {
 }
 
 TEST(reasons_have_a_line_each) {
-    const knurl_session_desc desc = describe("fake", "");
     char text[2048] = "?";
     knurl_surface_check check;
     SCOPED_SESSION *s = make_session();
     const knurl_surface_id hard = add_at(s, 5.0, 1e5);
-    open_session(s, &desc);
-    begin(s);
+    begin_with(s, "fake", "");
     knurl_surface_check_init(&check, sizeof check);
     assert_int_equal(knurl_scene_check_surface(s->scene, 0, hard, &check), KNURL_OK);
     knurl_session_explain(s, hard, text, sizeof text);
@@ -113,29 +109,27 @@ TEST(invalid_utf_8_is_cut_off_too) {
 }
 
 TEST(a_stroke_that_cannot_be_laid_is_warned_of) {
-    const knurl_session_desc desc = describe("fake", "line");
     char warning[256] = "?";
     SCOPED_SESSION *s = make_session();
     (void)add_at(s, 1.0, 300.0);
-    open_session(s, &desc);
+    open_with(s, "fake", "line");
     assert_int_equal(knurl_session_start(s, warning, sizeof warning), KNURL_OK);
     assert_non_null(strstr(warning, "outside of the workspace"));
     assert_non_null(strstr(warning, "\xF0\x9F\x98\x80"));
     for (uint32_t size = 1; size < 20; size++) {
         char cut[20] = "";
         knurl_session_close(s);
-        open_session(s, &desc);
+        open_with(s, "fake", "line");
         assert_int_equal(knurl_session_start(s, cut, size), KNURL_OK);
         check_cuts(warning, size, cut);
     }
 }
 
 TEST(one_that_can_is_not) {
-    const knurl_session_desc desc = describe("fake", "line");
     char warning[256] = "?";
     SCOPED_SESSION *s = make_session();
     (void)add_at(s, 0.0, 300.0);
-    open_session(s, &desc);
+    open_with(s, "fake", "line");
     assert_int_equal(knurl_session_start(s, warning, sizeof warning), KNURL_OK);
     assert_string_equal(warning, "");
 }
@@ -143,15 +137,13 @@ TEST(one_that_can_is_not) {
 /* A plate at many heights of the fake device's workspace, from -35 to 35 mm: there is a warning if the plate is
  * outside, and none if it is inside but near an end. */
 TEST(a_stroke_that_touches_a_surface_inside_is_not_warned_of) {
-    const knurl_session_desc desc = describe("fake", "line");
     for (int mm = -40; mm < 40; mm++) {
         const double z = 1e-3 * mm + 5e-4;
         knurl_surface_id outside = 0;
         knurl_hip_counts counts;
         SCOPED_SESSION *s = make_session();
         const knurl_surface_id plate = add_plate(s, 0.0, 0.0, z);
-        open_session(s, &desc);
-        begin(s);
+        begin_with(s, "fake", "line");
         step(s, 700);
         assert_int_equal(knurl_scene_get_tick(s->scene, 0, NULL, &counts), KNURL_OK);
         assert_int_equal(knurl_session_lay_stroke(s, &outside), KNURL_OK);

@@ -18,11 +18,9 @@ static void move(knurl_session *s, const knurl_workspace *to) {
 
 /* A finger that the fake hand holds 5 mm deep in a plate at 0: 2 N. */
 static knurl_session *pressed(void) {
-    const knurl_session_desc desc = describe("fake", "");
     knurl_session *s = make_session();
     (void)add_plate(s, 0.0, 0.0, 0.0);
-    open_session(s, &desc);
-    begin(s);
+    begin_with(s, "fake", "");
     press(s, 0.0, 0.0);
     hold(s, 0.0, 0.0, -0.005, 100);
     return s;
@@ -44,19 +42,16 @@ TEST(a_gain_counts_for_this_run_and_for_later_ones) {
 TEST(forces_and_vibrations_are_a_runs_and_end_with_it) {
     static const double force[3] = {0.5, 0.0, 0.0};
     static const double along[3] = {0.0, 1.0, 0.0};
-    const knurl_session_desc desc = describe("fake", "");
     SCOPED_SESSION *s = make_session();
     assert_int_equal(knurl_session_set_force(s, force), KNURL_ERROR_STATE);
     assert_int_equal(knurl_session_vibrate(s, KNURL_WAVE_T1, 100.0, 1.0, along, 1.0), KNURL_ERROR_STATE);
-    open_session(s, &desc);
-    begin(s);
+    begin_with(s, "fake", "");
     assert_int_equal(knurl_session_set_force(s, force), KNURL_OK);
     assert_int_equal(knurl_session_vibrate(s, KNURL_WAVE_T1, 100.0, 1.0, along, 1.0), KNURL_OK);
     step(s, 4);
     CHECK_VECTOR(state_of(s).force, 0.5, 1.0, 0.0, 1e-9);
     knurl_session_close(s);
-    open_session(s, &desc);
-    begin(s);
+    begin_with(s, "fake", "");
     step(s, 4);
     CHECK_VECTOR(state_of(s).force, 0.0, 0.0, 0.0, 0.0);
 }
@@ -73,10 +68,8 @@ TEST(a_workspace_follows_its_node_by_the_engines_clock_and_is_where_it_stands) {
 TEST(a_workspace_that_is_faster_than_10_m_per_s_leaps_through_a_wall) {
     const knurl_workspace to = at(0.0, -2.0, 1.0);
     SCOPED_SESSION *s = make_session();
-    const knurl_session_desc desc = describe("fake", "");
     (void)add_plate(s, 0.0, 0.0, 0.0);
-    open_session(s, &desc);
-    begin(s);
+    begin_with(s, "fake", "");
     hold(s, 0.0, 0.0, 0.02, 100);
     move(s, &to);
     step(s, 1);
@@ -88,8 +81,7 @@ TEST(the_mouse_goes_where_the_game_says_wherever_the_workspace_has_gone) {
     const knurl_workspace to = at(0.1, 0.0, 2.0);
     static const double there[3] = {0.03, 0.02, 0.01};
     SCOPED_SESSION *s = make_session();
-    const knurl_session_desc desc = describe("mouse", "");
-    open_session(s, &desc);
+    open_with(s, "mouse", "");
     assert_int_equal(knurl_session_start(s, NULL, 0), KNURL_OK);
     move(s, &to);
     assert_int_equal(knurl_session_move_hip(s, there), KNURL_OK);
@@ -100,12 +92,10 @@ TEST(the_mouse_goes_where_the_game_says_wherever_the_workspace_has_gone) {
 /* 4 mm below the node, 1 mm above the plate: twice as far from the node is 3 mm deep in it. */
 TEST(a_scale_that_changes_carries_the_hip_into_what_it_meets) {
     SCOPED_SESSION *s = make_session();
-    const knurl_session_desc desc = describe("fake", "");
     const knurl_workspace start = at(0.0, 0.0, 1.0);
     const knurl_workspace to = at(0.0, 0.0, 2.0);
     (void)add_plate(s, 0.0, 0.0, -0.005);
-    open_session(s, &desc);
-    begin(s);
+    begin_with(s, "fake", "");
     hold(s, 0.0, 0.0, -0.004, 100);
     move(s, &start);
     move(s, &to);

@@ -24,17 +24,12 @@ static int thread_count(void) {
 static int others_than_ours; /* threads, before the first session */
 
 /* The system lists a thread for a while after it was joined. */
-static int nobody_runs(void) {
-    const int64_t begin = knurl_system_now_ns();
-    while (thread_count() > others_than_ours && knurl_system_now_ns() - begin < PATIENCE_NS) {
-        knurl_system_sleep_until_ns(knurl_system_now_ns() + 1000000);
-    }
-    return thread_count() <= others_than_ours;
+static void check_nobody_runs(void) {
+    WAIT_FOR(thread_count() <= others_than_ours);
 }
 
 static void open_fake(knurl_session *s) {
-    const knurl_session_desc desc = describe("fake", "rest");
-    open_session(s, &desc);
+    open_with(s, "fake", "rest");
 }
 
 static void start(knurl_session *s) {
@@ -222,13 +217,13 @@ TEST(a_scene_that_the_caller_committed_is_fine) {
 }
 
 TEST(destroying_what_runs_ends_its_threads) {
-    assert_true(nobody_runs());
+    check_nobody_runs();
     knurl_session *s = make_session();
     open_fake(s);
     start(s);
     assert_true(thread_count() > others_than_ours);
     knurl_session_destroy(s);
-    assert_true(nobody_runs());
+    check_nobody_runs();
     s = make_session();
     open_fake(s);
     knurl_session_destroy(s); /* open */
@@ -236,7 +231,7 @@ TEST(destroying_what_runs_ends_its_threads) {
     open_fake(s);
     start(s);
     knurl_session_close(s);
-    assert_true(nobody_runs());
+    check_nobody_runs();
     knurl_session_destroy(s); /* closed */
 }
 
@@ -251,7 +246,7 @@ TEST(all_are_closed_and_those_that_ran_are_counted) {
     start(s[0]);
     start(s[2]);
     assert_int_equal(knurl_session_close_all(), 2);
-    assert_true(nobody_runs());
+    check_nobody_runs();
     for (int i = 0; i < 4; i++) {
         check_closed(s[i]);
     }
@@ -321,7 +316,7 @@ int main(void) {
     if (first) { /* the thread sanitizer brings one of its own along */
         knurl_system_join_thread(first);
     }
-    knurl_system_sleep_until_ns(knurl_system_now_ns() + 20000000);
+    sleep_ms(20.0);
     others_than_ours = thread_count();
     return suite_run("session_life");
 }
@@ -331,11 +326,9 @@ TEST(objects_in_use_by_the_hosts_loop_outlive_the_session) {
     static const double there[3] = {0.0, 0.0, -0.001};
     for (int turn = 0; turn < 20; turn++) {
         knurl_loop_desc desc;
-        knurl_loop_stats stats;
         knurl_loop *loop = NULL;
         knurl_session *s = make_session();
-        const knurl_session_desc mouse = describe("mouse", "");
-        open_session(s, &mouse);
+        open_with(s, "mouse", "");
         (void)add_plate(s, 0.0, 0.0, 0.0);
         assert_int_equal(knurl_scene_commit(knurl_session_get_scene(s)), KNURL_OK);
         assert_int_equal(knurl_session_move_hip(s, there), KNURL_OK);
@@ -347,15 +340,10 @@ TEST(objects_in_use_by_the_hosts_loop_outlive_the_session) {
         assert_int_equal(knurl_loop_create(&desc, &loop), KNURL_OK);
         assert_int_equal(knurl_session_start(s, NULL, 0), KNURL_ERROR_STATE); /* the HIP is that loop's */
         assert_int_equal(knurl_loop_start(loop), KNURL_OK);
-        knurl_loop_stats_init(&stats, sizeof stats);
-        while (stats.ticks < 20) {
-            knurl_system_sleep_until_ns(knurl_system_now_ns() + 100000);
-            assert_int_equal(knurl_loop_get_stats(loop, &stats), KNURL_OK);
-        }
+        WAIT_FOR(loop_stats(loop).ticks >= 20);
         knurl_session_destroy(s);
         assert_int_equal(knurl_loop_wait(loop, 10.0), 1);
-        assert_int_equal(knurl_loop_get_stats(loop, &stats), KNURL_OK);
-        assert_int_equal(stats.state, KNURL_LOOP_DONE);
+        assert_int_equal(loop_stats(loop).state, KNURL_LOOP_DONE);
         knurl_loop_destroy(loop);
     }
 }

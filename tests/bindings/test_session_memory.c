@@ -98,7 +98,6 @@ TEST(and_so_it_is_anywhere_in_a_play) {
 }
 
 TEST(a_frame_asks_for_no_memory) {
-    const knurl_session_desc desc = describe("fake:?lose_at=0.3&press_at=0.1", "");
     knurl_session_event event;
     char text[256];
     float rows[64];
@@ -106,8 +105,7 @@ TEST(a_frame_asks_for_no_memory) {
     SCOPED_SESSION *s = make_session();
     (void)add_plate(s, 0.0, 0.0, 0.0);
     (void)add_plate(s, 0.2, 0.0, 0.0);
-    open_session(s, &desc);
-    begin(s);
+    begin_with(s, "fake:?lose_at=0.3&press_at=0.1", "");
     for (int frame = 0; frame < 40; frame++) {
         press(s, frame % 2 ? 0.2 : 0.0, 0.0);
         requests = 0;

@@ -136,8 +136,6 @@ TEST(a_device_that_gets_lost_plays_fewer_ticks) {
 TEST(an_unplayable_grating_is_refused) {
     const double descending[8] = {0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0};
     const double nan[4] = {0.0, NAN, 0.0, 0.0};
-    const knurl_session_desc fake = describe("fake", "");
-    const knurl_session_desc mouse = describe("mouse", "");
     SCOPED_SESSION *s = make_session();
     struct {
         double forces[3];
@@ -145,11 +143,11 @@ TEST(an_unplayable_grating_is_refused) {
     } out = {{1.0, 2.0, 3.0}, 4};
     CHECK_REFUSED(knurl_session_play(s, path, ROWS, 1, out.forces, &out.played), KNURL_ERROR_STATE, out);
     check_message("closed");
-    open_session(s, &mouse);
+    open_with(s, "mouse", "");
     CHECK_REFUSED(knurl_session_play(s, path, ROWS, 1, out.forces, &out.played), KNURL_ERROR_UNSUPPORTED, out);
     check_message("fake");
     knurl_session_close(s);
-    open_session(s, &fake);
+    open_with(s, "fake", "");
     CHECK_REFUSED(knurl_session_play(s, path, ROWS, 0, out.forces, &out.played), KNURL_ERROR_ARGUMENT, out);
     check_message("ticks");
     CHECK_REFUSED(knurl_session_play(s, path, ROWS, 100000001, out.forces, &out.played), KNURL_ERROR_ARGUMENT, out);

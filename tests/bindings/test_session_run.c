@@ -7,6 +7,11 @@ static void run(knurl_session *s, const knurl_session_desc *desc) {
     assert_int_equal(knurl_session_start(s, NULL, 0), KNURL_OK);
 }
 
+static void run_fake(knurl_session *s, const char *stroke) {
+    const knurl_session_desc desc = describe("fake", stroke);
+    run(s, &desc);
+}
+
 static int feels(const knurl_session *s) {
     const knurl_session_state state = state_of(s);
     return fabs(state.force[0]) + fabs(state.force[1]) + fabs(state.force[2]) > 0.05;
@@ -29,12 +34,11 @@ static int is_told(knurl_session *s, int32_t kind, int32_t code) {
 }
 
 TEST(a_stroke_over_the_first_surface_is_felt_and_reported) {
-    const knurl_session_desc desc = describe("fake", "press");
     static float rows[2 * KNURL_SESSION_HISTORY];
     knurl_session_event event;
     SCOPED_SESSION *s = make_session();
     const knurl_surface_id plate = add_plate(s, 0.02, 0.01, 0.005);
-    run(s, &desc);
+    run_fake(s, "press");
     assert_int_equal(state_of(s).running, 1);
     CHECK_UNTIL(s, feels(s));
     CHECK_UNTIL(s, knurl_session_next_event(s, &event) && event.kind == KNURL_SESSION_CONTACT_STARTED);
@@ -66,14 +70,9 @@ TEST(a_pause_takes_the_force_away_and_its_end_brings_it_back) {
     CHECK_UNTIL(s, is_told(s, KNURL_SESSION_CONTACT_STARTED, 0));
     knurl_session_set_paused(s, 1);
     assert_int_equal(state_of(s).paused, 1);
-    const int64_t begin = knurl_system_now_ns();
-    while (!(feels_nothing(s) && state_of(s).in_contact == 0) && knurl_system_now_ns() - begin < PATIENCE_NS) {
-        knurl_system_sleep_until_ns(knurl_system_now_ns() + 1000000);
-    }
-    const uint64_t ticks = state_of(s).ticks;
-    while (state_of(s).ticks < ticks + 300 && knurl_system_now_ns() - begin < PATIENCE_NS) {
+    WAIT_FOR(feels_nothing(s) && state_of(s).in_contact == 0);
+    for (const uint64_t ticks = state_of(s).ticks; state_of(s).ticks < ticks + 300; sleep_ms(1.0)) {
         assert_true(feels_nothing(s));
-        knurl_system_sleep_until_ns(knurl_system_now_ns() + 1000000);
     }
     knurl_session_event event;
     knurl_session_update(s);
@@ -88,16 +87,15 @@ TEST(a_pause_takes_the_force_away_and_its_end_brings_it_back) {
 }
 
 TEST(a_session_can_start_paused) {
-    const knurl_session_desc desc = describe("fake", "rest");
     SCOPED_SESSION *s = make_session();
     (void)add_plate(s, 0.0, 0.0, 0.005);
     knurl_session_set_paused(s, 1);
-    run(s, &desc);
+    run_fake(s, "rest");
     CHECK_UNTIL(s, state_of(s).ticks > 300);
     assert_true(feels_nothing(s) && state_of(s).paused == 1);
     knurl_session_close(s);
     knurl_session_set_paused(s, 0);
-    run(s, &desc);
+    run_fake(s, "rest");
     CHECK_UNTIL(s, feels(s));
 }
 
@@ -109,11 +107,7 @@ TEST(while_a_game_hangs_its_device_has_no_force) {
     run(s, &desc);
     for (int round = 0; round < 2; round++) {
         CHECK_UNTIL(s, feels(s));
-        const int64_t begin = knurl_system_now_ns();
-        while (!feels_nothing(s)) { /* no update */
-            assert_true(knurl_system_now_ns() - begin < PATIENCE_NS);
-            knurl_system_sleep_until_ns(knurl_system_now_ns() + 1000000);
-        }
+        WAIT_FOR(feels_nothing(s)); /* no update */
         assert_int_equal(state_of(s).in_contact, 1);
         CHECK_UNTIL(s, is_told(s, KNURL_SESSION_FAULT, KNURL_FAULT_HEARTBEAT));
     }
@@ -125,18 +119,9 @@ TEST(without_a_heartbeat_a_game_may_be_silent) {
     (void)add_plate(s, 0.0, 0.0, 0.0);
     desc.heartbeat_s = 0.0;
     run(s, &desc);
-    const int64_t begin = knurl_system_now_ns();
-    while (!feels(s) || state_of(s).ticks < 800) {
-        assert_true(knurl_system_now_ns() - begin < PATIENCE_NS);
-        knurl_system_sleep_until_ns(knurl_system_now_ns() + 1000000);
-    }
+    WAIT_FOR(feels(s) && state_of(s).ticks >= 800);
     knurl_session_update(s);
     assert_false(is_told(s, KNURL_SESSION_FAULT, KNURL_FAULT_HEARTBEAT));
-}
-
-static uint64_t count_absences(knurl_session *s) {
-    const knurl_loop_stats stats = loop_stats(knurl_session_get_loop(s));
-    return stats.absences;
 }
 
 /* A mouse that was not moved yet is not silent: it has no positions. */
@@ -147,9 +132,7 @@ TEST(a_mouse_is_nowhere_until_it_moves_and_then_feels) {
     SCOPED_SESSION *s = make_session();
     (void)add_plate(s, 0.0, 0.0, 0.0);
     run(s, &desc);
-    while (count_absences(s) < 30) { /* silence is reported after 10 */
-        knurl_system_sleep_until_ns(knurl_system_now_ns() + 1000000);
-    }
+    WAIT_FOR(loop_stats(knurl_session_get_loop(s)).absences >= 30); /* silence is reported after 10 */
     assert_true(state_of(s).ticks == 0 && feels_nothing(s));
     knurl_session_update(s);
     assert_false(is_told(s, KNURL_SESSION_FAULT, KNURL_FAULT_SILENT));
@@ -182,7 +165,6 @@ TEST(else_it_is_found_again) {
 /* Edits, closes and starts from the game's thread against the haptic one: for the thread sanitizer. */
 TEST(a_game_does_what_it_likes_while_it_runs) {
     static const double upright[4] = {0.0, 0.0, 0.0, 1.0};
-    const knurl_session_desc desc = describe("fake", "circle");
     knurl_session_event event;
     char text[512];
     static float rows[2 * 256];
@@ -190,7 +172,7 @@ TEST(a_game_does_what_it_likes_while_it_runs) {
     for (int round = 0; round < 3; round++) {
         const knurl_surface_id plate = add_plate(s, 0.0, 0.0, 0.0);
         knurl_session_way way = {.clock = KNURL_SESSION_FRAMES};
-        run(s, &desc);
+        run_fake(s, "circle");
         for (int frame = 0; frame < 50; frame++) {
             const double position[3] = {0.0, 0.0, 1e-5 * frame};
             assert_int_equal(knurl_session_move_surface(s, plate, &way, position, upright), KNURL_OK);
@@ -199,7 +181,7 @@ TEST(a_game_does_what_it_likes_while_it_runs) {
             assert_in_range(knurl_session_get_history(s, 256, rows), 0, 256);
             knurl_session_explain(s, plate, text, sizeof text);
             assert_int_equal(state_of(s).running, 1);
-            knurl_system_sleep_until_ns(knurl_system_now_ns() + 2000000);
+            sleep_ms(2.0);
         }
         assert_int_equal(knurl_scene_remove_surface(knurl_session_get_scene(s), plate), KNURL_OK);
         knurl_session_update(s);

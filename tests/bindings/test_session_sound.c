@@ -5,13 +5,11 @@
 
 /* A finger 1 mm deep in ridges of 1 mm. */
 static knurl_session *ridges(void) {
-    const knurl_session_desc desc = describe("fake", "");
     surface_parts parts = surface_plane();
     knurl_session *s = make_session();
     set_grating(&parts, KNURL_METHOD_DEFAULT, 1000.0, 0.0, 2e-4);
     (void)add_surface(knurl_session_get_scene(s), &parts);
-    open_session(s, &desc);
-    begin(s);
+    begin_with(s, "fake", "");
     press(s, 0.0, 0.0);
     return s;
 }
@@ -61,15 +59,13 @@ TEST(a_sound_outlives_its_run_and_fades) {
 }
 
 TEST(a_run_has_one_sound_and_the_next_run_another) {
-    const knurl_session_desc desc = describe("fake", "");
     SCOPED_SESSION *s = ridges();
     knurl_sound *first = sound_of(s);
     knurl_sound *again = sound_of(s);
     assert_ptr_equal(first, again);
     knurl_sound_release(again);
     knurl_session_close(s);
-    open_session(s, &desc);
-    begin(s);
+    begin_with(s, "fake", "");
     knurl_sound *next = sound_of(s);
     assert_ptr_not_equal(first, next);
     knurl_sound_release(first);
