@@ -1,7 +1,7 @@
 /* `knurl sweep`: the response of a known device, the bounds of its force, and its ends.
  * SPDX-License-Identifier: MIT */
 #include "support/close.h"
-#include "support/tool.h"
+#include "tool/plate.h"
 
 #include "sweep.h"
 
@@ -152,21 +152,16 @@ TEST(a_fake_devices_response_is_its_plants) {
                  {"fake:?coulomb=0", 0.045, 0.5, 330.0, 1.5}}; /* positions in counts of 0.055 mm: 10 to 0.05 of one */
     for (size_t i = 0; i < COUNT_OF(cases); i++) {
         const char *out = tool_path("response.csv");
-        process p = RUN_TOOL("sweep", "--fast", "--device", cases[i].uri, "--out", out);
-        check_done(&p);
-        process_free(&p);
+        RUN_DONE("sweep", "--fast", "--device", cases[i].uri, "--out", out);
         const double db = worst_db(out, cases[i].mass, cases[i].viscous, cases[i].to_hz);
         print_message("%s: %.3f dB\n", cases[i].uri, db);
         assert_true(db < cases[i].db);
     }
 }
 
-#define TAG                                                                                                            \
-    "{\"knurl\":{\"version\":1,\"spatial_frequency\":[1000,0],\"amplitude\":0.0002,\"stiffness\":400,\"axis\":[1,0,0]}}"
-
 /* The same gains, from the model and from its measured response. */
 TEST(run_and_inspect_tell_the_range_and_the_lowest_gain) {
-    const char *plate = write_plate("plate.gltf", TAG);
+    const char *written = write_plate("plate.gltf", TAG);
     const char *out = tool_path("response.csv");
     process p = RUN_TOOL("sweep", "--fast", "--device", "fake:?coulomb=0&resolution=0&tremor=0&exact=1", "--out", out);
     check_done(&p);
@@ -176,21 +171,21 @@ TEST(run_and_inspect_tell_the_range_and_the_lowest_gain) {
                                    {"run", "--even", "--fast"},
                                    {"run", "--fast", "--response"}};
     for (size_t i = 0; i < COUNT_OF(ways); i++) {
-        p = RUN_TOOL(ways[i][0], plate, ways[i][1], ways[i][2], i == 3 ? out : NULL);
+        p = RUN_TOOL(ways[i][0], written, ways[i][1], ways[i][2], i == 3 ? out : NULL);
         check_done(&p);
         CHECK_CLOSE(json_number_of(p.out, "lowest_gain"), 0.089, 0.004);
         CHECK_CLOSE(json_number_of(p.out, "from_hz"), 20.0, 1e-9);
         CHECK_CLOSE(json_number_of(p.out, "to_hz"), 295.0, 15.0);
         process_free(&p);
     }
-    p = RUN_TOOL("inspect", plate);
+    p = RUN_TOOL("inspect", written);
     check_done(&p);
     assert_null(strstr(p.out, "lowest_gain"));
     process_free(&p);
 }
 
 TEST(a_response_that_is_wrong_and_a_device_without_one_are_refused) {
-    const char *plate = write_plate("plate.gltf", TAG);
+    const char *written = write_plate("plate.gltf", TAG);
     const char *bad = tool_path("bad.csv");
     write_text(bad, "# knurl response 1\nfrequency_hz,gain\n20,1\n30,-1\n");
     static const struct {
@@ -207,7 +202,7 @@ TEST(a_response_that_is_wrong_and_a_device_without_one_are_refused) {
         for (int k = 1; k < 4; k++) {
             a[k] = cases[i].arguments[k] && strcmp(cases[i].arguments[k], "BAD") == 0 ? bad : cases[i].arguments[k];
         }
-        process p = with_plate ? RUN_TOOL(a[0], plate, a[1], a[2], a[3]) : RUN_TOOL(a[0], a[1], a[2], a[3]);
+        process p = with_plate ? RUN_TOOL(a[0], written, a[1], a[2], a[3]) : RUN_TOOL(a[0], a[1], a[2], a[3]);
         check_refused(&p, cases[i].code, cases[i].says, cases[i].arguments[0]);
     }
 }

@@ -1,14 +1,9 @@
 /* The command-line tool's output, a contract: each command as design.md has it, with values by hand from the equations.
  * SPDX-License-Identifier: MIT */
 #include "support/close.h"
-#include "support/tool.h"
-
-static const char plate[] = KNURL_TEST_ASSETS "/plate_1d.glb";
+#include "tool/plate.h"
 
 /* Tags the written plate: 1 mm period along x, 0.2 mm, 400 N/m. */
-#define TAG                                                                                                            \
-    "{\"knurl\":{\"version\":1,\"spatial_frequency\":[1000,0],\"amplitude\":0.0002,\"stiffness\":400,\"axis\":[1,0,0]}}"
-
 /* A CSV's header and its rows of numbers; NaN: an empty cell. */
 static void check_csv(const char *csv, const char *header, const double *expected, size_t rows, size_t columns) {
     const size_t length = strlen(header);
@@ -158,49 +153,14 @@ TEST(scan_finds_its_columns_by_name_in_any_order_among_others) {
 /* --- inspect, devices, version --- */
 
 TEST(inspect_tells_each_surface_in_one_line_of_json) {
-    static const char *const keys[] = {"surfaces",
-                                       "name",
-                                       "shape",
-                                       "model",
-                                       "triangles",
-                                       "dropped_triangles",
-                                       "bytes",
-                                       "material",
-                                       "amplitude",
-                                       "damping",
-                                       "spatial_frequency",
-                                       "friction",
-                                       "method",
-                                       "stretch",
-                                       "min",
-                                       "mean",
-                                       "max",
-                                       "skipped",
-                                       "stiffness",
-                                       "orientation",
-                                       "why",
-                                       "model_error",
-                                       "in_reach",
-                                       "double_sided",
-                                       "reversed_twins",
-                                       "turned_triangles",
-                                       "coordinates",
-                                       "uneven",
-                                       "projection_seams",
-                                       "smooth",
-                                       "edges",
-                                       "hard_edges",
-                                       "facet_angle",
-                                       "felt_angle"};
     SCOPED_PROCESS p = RUN_TOOL("inspect", write_plate("plate.gltf", TAG));
     check_done(&p);
     assert_int_equal(p.err[0], '\0');
     assert_int_equal(lines_in(p.out), 1);
-    for (size_t i = 0; i < COUNT_OF(keys); i++) {
-        char quoted[64];
-        (void)snprintf(quoted, sizeof quoted, "\"%s\":", keys[i]);
-        assert_non_null(strstr(p.out, quoted));
-    }
+    check_keys(p.out, "surfaces name shape model triangles dropped_triangles bytes material amplitude "
+                      "damping spatial_frequency friction method stretch min mean max skipped stiffness "
+                      "orientation why model_error in_reach double_sided reversed_twins turned_triangles "
+                      "coordinates uneven projection_seams smooth edges hard_edges facet_angle felt_angle");
     CHECK_SAME(json_number_of(p.out, "amplitude"), 0.0002);
     CHECK_SAME(json_number_of(p.out, "stiffness"), 400.0L);
     CHECK_SAME(json_number_of(p.out, "triangles"), 2.0L);

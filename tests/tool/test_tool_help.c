@@ -2,9 +2,8 @@
  * messages for traces in other formats. SPDX-License-Identifier: MIT */
 #include "support/close.h"
 #include "support/suite.h"
-#include "support/tool.h"
+#include "tool/plate.h"
 
-static const char plate[] = KNURL_TEST_ASSETS "/plate_1d.glb";
 static const char *const commands[] = {"inspect", "run", "signal", "metrics", "scan", "study", "bench", "devices"};
 
 static void check_has(const char *text, const char *part) {

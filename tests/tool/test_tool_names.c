@@ -1,12 +1,11 @@
 /* Untrusted names: no effect on a terminal or in a spreadsheet, and distinct from "no contact".
  * SPDX-License-Identifier: MIT */
 #include "support/close.h"
-#include "support/tool.h"
+#include "tool/plate.h"
 
 #include "csv.h"
 #include "json.h"
 
-static const char plate[] = KNURL_TEST_ASSETS "/plate_1d.glb";
 static const char python[] = "/usr/bin/python3";
 static const char drawer[] = KNURL_TEST_ASSETS "/../samples/draw_run.py";
 

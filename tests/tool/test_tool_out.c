@@ -1,15 +1,8 @@
 /* The tool's outputs never replace its inputs, and are complete or absent. SPDX-License-Identifier: MIT */
 #include "support/close.h"
-#include "support/tool.h"
+#include "tool/plate.h"
 
 #include <sys/resource.h>
-
-#define HEADER "t,x,y,z,vx,vy,surface,depth,fs,ft,height,fx,fy,fz\n"
-
-static const char plate[] = KNURL_TEST_ASSETS "/plate_1d.glb";
-
-#define TAG                                                                                                            \
-    "{\"knurl\":{\"version\":1,\"spatial_frequency\":[1000,0],\"amplitude\":0.0002,\"stiffness\":400,\"axis\":[1,0,0]}}"
 
 static void copy_file(const char *from, const char *to) {
     char *bytes = read_file(from);
@@ -65,12 +58,8 @@ TEST(a_run_does_not_replace_the_buffer_of_its_model) {
 TEST(a_link_where_an_unfinished_file_was_expected_is_not_followed) {
     write_text(tool_path("victim"), "mine\n");
     assert_int_equal(symlink("victim", tool_path("out.csv.part")), 0);
-    process p = RUN_TOOL("run", plate, "--fast", "--seconds", "0.01", "--out", tool_path("out.csv"));
-    check_done(&p);
-    process_free(&p);
-    char *text = read_file(tool_path("victim"));
-    assert_string_equal(text, "mine\n");
-    free(text);
+    RUN_DONE("run", plate, "--fast", "--seconds", "0.01", "--out", tool_path("out.csv"));
+    check_text(tool_path("victim"), "mine\n");
     assert_int_equal(remove(tool_path("out.csv.part")), 0);
 }
 
@@ -90,9 +79,7 @@ TEST(an_output_may_have_the_longest_name) {
     char name[256];
     memset(name, 'n', sizeof name - 1);
     name[255] = '\0';
-    process p = RUN_TOOL("run", plate, "--fast", "--seconds", "0.01", "--out", tool_path(name));
-    check_done(&p);
-    process_free(&p);
+    RUN_DONE("run", plate, "--fast", "--seconds", "0.01", "--out", tool_path(name));
     assert_true(file_exists(tool_path(name)));
 }
 
@@ -100,7 +87,7 @@ TEST(an_output_may_have_the_longest_name) {
 TEST(standard_output_takes_the_rows_and_standard_error_the_summary) {
     process p = RUN_TOOL("run", plate, "--fast", "--seconds", "0.01", "--out", "-");
     assert_int_equal(p.exit_code, 0);
-    assert_true(strncmp(p.out, HEADER, strlen(HEADER)) == 0);
+    assert_true(strncmp(p.out, RUN_HEADER, strlen(RUN_HEADER)) == 0);
     assert_int_equal(lines_in(p.out), 11);
     assert_null(strstr(p.out, "\"ticks\""));
     assert_non_null(strstr(p.err, "\"ticks\": 10,"));
@@ -120,7 +107,7 @@ TEST(a_run_does_not_replace_one_of_its_outputs_by_the_other) {
     assert_non_null(strstr(p.err, "or another output"));
     process_free(&p);
     char *text = read_file(same);
-    assert_true(strncmp(text, HEADER, strlen(HEADER)) == 0);
+    assert_true(strncmp(text, RUN_HEADER, strlen(RUN_HEADER)) == 0);
     free(text);
     assert_int_equal(files_that_end(".part"), 0);
 }
@@ -153,7 +140,7 @@ TEST(closed_standard_streams_are_reported_and_no_file_takes_their_place) {
     assert_int_equal(p.exit_code, 0);
     process_free(&p);
     char *rows = read_file(tool_path("warned.csv"));
-    assert_int_equal(strncmp(rows, HEADER, sizeof HEADER - 1), 0);
+    assert_int_equal(strncmp(rows, RUN_HEADER, sizeof RUN_HEADER - 1), 0);
     assert_null(strstr(rows, "knurl"));
     free(rows);
 }
@@ -173,7 +160,7 @@ TEST(standard_output_that_is_a_file_is_written_on_not_replaced) {
     assert_int_equal(lstat("/dev/stdout", &after), 0);
     assert_int_equal(before.st_ino, after.st_ino);
     char *text = read_file(tool_path("all.txt"));
-    assert_true(strncmp(text, HEADER, strlen(HEADER)) == 0);
+    assert_true(strncmp(text, RUN_HEADER, strlen(RUN_HEADER)) == 0);
     assert_int_equal(lines_in(text), 12);
     free(text);
 }
@@ -220,9 +207,7 @@ TEST(an_interrupted_run_leaves_no_short_file) {
         assert_non_null(strstr(p.err, "interrupted after"));
         assert_non_null(strstr(p.out, "\"ticks\": ")); /* the summary is still printed */
         process_free(&p);
-        char *text = read_file(tool_path("out.csv"));
-        assert_string_equal(text, "mine\n");
-        free(text);
+        check_text(tool_path("out.csv"), "mine\n");
         assert_int_equal(files_that_end(".part"), 0);
     }
 }
@@ -261,7 +246,7 @@ TEST(a_run_whose_reader_has_gone_leaves_nothing) {
     (void)snprintf(line, sizeof line, "%s run %s --fast --seconds 20 --out - --wav %s | head -1", KNURL_TEST_TOOL,
                    plate, tool_path("p.wav"));
     process p = run_tool((const char *const[]){"/bin/sh", "-c", line, NULL});
-    assert_string_equal(p.out, HEADER);
+    assert_string_equal(p.out, RUN_HEADER);
     process_free(&p);
     assert_int_equal(files_that_end(".part"), 0);
     assert_false(file_exists(tool_path("p.wav")));

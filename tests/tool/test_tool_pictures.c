@@ -1,9 +1,7 @@
 /* samples/study/plot.py and samples/draw_run.py: never overwrite the run, and report unreadable input.
  * SPDX-License-Identifier: MIT */
 #include "support/close.h"
-#include "support/tool.h"
-
-static const char plate[] = KNURL_TEST_ASSETS "/plate_1d.glb";
+#include "tool/plate.h"
 
 static const char python[] = "/usr/bin/python3";
 static const char plotter[] = KNURL_TEST_ASSETS "/../samples/study/plot.py";
@@ -12,8 +10,7 @@ static const char drawer[] = KNURL_TEST_ASSETS "/../samples/draw_run.py"; /* wit
 static int can_plot(void) {
     const char *const arguments[] = {python, "-c",
                                      "import sys, importlib.util as u; sys.exit(not u.find_spec('matplotlib'))", NULL};
-    process p = process_start(arguments, NULL);
-    process_finish(&p);
+    process p = run_tool(arguments);
     process_free(&p);
     return p.exit_code == 0;
 }
@@ -32,8 +29,7 @@ TEST(a_picture_does_not_replace_the_run_that_it_shows) {
     for (size_t i = 0; i < COUNT_OF(outputs); i++) {
         char *before = read_file(run);
         const char *const arguments[] = {python, plotter, run, "--out", outputs[i], NULL};
-        p = process_start(arguments, NULL);
-        process_finish(&p);
+        p = run_tool(arguments);
         assert_int_equal(p.exit_code, 1);
         assert_non_null(strstr(p.err, "a file that is read"));
         process_free(&p);
@@ -43,14 +39,12 @@ TEST(a_picture_does_not_replace_the_run_that_it_shows) {
         free(after);
     }
     const char *const good[] = {python, plotter, run, "--out", tool_path("good.png"), NULL};
-    p = process_start(good, NULL);
-    process_finish(&p);
+    p = run_tool(good);
     assert_int_equal(p.exit_code, 0);
     process_free(&p);
     assert_true(file_exists(tool_path("good.png")));
     const char *const straight[] = {python, plotter, run, "--out", "/dev/stdout", NULL};
-    p = process_start(straight, NULL);
-    process_finish(&p);
+    p = run_tool(straight);
     assert_int_equal(p.exit_code, 0);
     assert_memory_equal(p.out, "\x89PNG", 4);
     process_free(&p);
@@ -69,8 +63,7 @@ TEST(a_picture_never_replaces_a_file_of_dev) {
                                "except style.BadInput as error: print(error)";
     static const char studies[] = KNURL_TEST_ASSETS "/../samples/study";
     const char *const arguments[] = {python, "-c", code, studies, NULL};
-    process p = process_start(arguments, NULL);
-    process_finish(&p);
+    process p = run_tool(arguments);
     assert_non_null(strstr(p.out, "/dev/fd/777: expected a place to write a PNG to, found: No such file"));
     process_free(&p);
 }
@@ -106,27 +99,27 @@ TEST(a_drawing_does_not_replace_the_run_that_it_shows) {
     free(picture);
 }
 
-#define HEADER "t,x,y,z,vx,vy,surface,depth,fs,ft,height,fx,fy,fz\n"
-#define ROW    "0,0,0,0,0,0,none,0,0,0,0,0,0,0\n"
+#define ROW "0,0,0,0,0,0,none,0,0,0,0,0,0,0\n"
 
 TEST(a_drawing_of_what_is_no_run_is_refused_with_its_file_and_line) {
     static const struct {
         const char *text, *words;
-    } runs[] = {{"", "found no column 't'"},
-                {"t,x,y,z\n0,0,0,0\n1,0,0,0\n", "found no column 'ft'"},
-                {HEADER, "at least two rows, found 0"},
-                {HEADER ROW, "at least two rows, found 1"},
-                {HEADER ROW "1,0,0,0,0,0,none,0,0,fast,0,0,0,0\n", "line 3: expected a number"},
-                {HEADER ROW "1,0,0\n", "line 3: expected a number for ft, found nothing"},
-                {HEADER ROW "nan,0,0,0,0,0,none,0,0,0,0,0,0,0\n", "line 3: expected -1e+09 to 1e+09 for t, found nan"},
-                {HEADER ROW "1,0,0,0,0,0,none,0,0,0,nan,0,0,0\n", "for height, found nan"},
-                {HEADER ROW "1,0,0,0,0,0,none,0,0,inf,0,0,0,0\n", "line 3: expected 0 to 1e+09 for ft, found inf"},
-                {HEADER ROW "1,0,0,0,0,0,none,0,0,0,0,-inf,0,0\n", "for fx, found -inf"},
-                {HEADER ROW "1,0,0,0,0,0,none,0,0,0,0,1e308,0,0\n", "for fx, found 1e308"},
-                {HEADER ROW "1,0,0,0,0,0,none,0,0,-1,0,0,0,0\n", "line 3: expected 0 to 1e+09 for ft, found -1"},
-                {HEADER ROW "0,0,0,0,0,0,none,0,0,0,0,0,0,0\n", "line 3: expected a time after 0 s, found 0"},
-                {HEADER ROW "-1,0,0,0,0,0,none,0,0,0,0,0,0,0\n", "line 3: expected a time after 0 s, found -1"},
-                {"\xff\xfe\x01", "found no text"}};
+    } runs[] = {
+        {"", "found no column 't'"},
+        {"t,x,y,z\n0,0,0,0\n1,0,0,0\n", "found no column 'ft'"},
+        {RUN_HEADER, "at least two rows, found 0"},
+        {RUN_HEADER ROW, "at least two rows, found 1"},
+        {RUN_HEADER ROW "1,0,0,0,0,0,none,0,0,fast,0,0,0,0\n", "line 3: expected a number"},
+        {RUN_HEADER ROW "1,0,0\n", "line 3: expected a number for ft, found nothing"},
+        {RUN_HEADER ROW "nan,0,0,0,0,0,none,0,0,0,0,0,0,0\n", "line 3: expected -1e+09 to 1e+09 for t, found nan"},
+        {RUN_HEADER ROW "1,0,0,0,0,0,none,0,0,0,nan,0,0,0\n", "for height, found nan"},
+        {RUN_HEADER ROW "1,0,0,0,0,0,none,0,0,inf,0,0,0,0\n", "line 3: expected 0 to 1e+09 for ft, found inf"},
+        {RUN_HEADER ROW "1,0,0,0,0,0,none,0,0,0,0,-inf,0,0\n", "for fx, found -inf"},
+        {RUN_HEADER ROW "1,0,0,0,0,0,none,0,0,0,0,1e308,0,0\n", "for fx, found 1e308"},
+        {RUN_HEADER ROW "1,0,0,0,0,0,none,0,0,-1,0,0,0,0\n", "line 3: expected 0 to 1e+09 for ft, found -1"},
+        {RUN_HEADER ROW "0,0,0,0,0,0,none,0,0,0,0,0,0,0\n", "line 3: expected a time after 0 s, found 0"},
+        {RUN_HEADER ROW "-1,0,0,0,0,0,none,0,0,0,0,0,0,0\n", "line 3: expected a time after 0 s, found -1"},
+        {"\xff\xfe\x01", "found no text"}};
     for (size_t i = 0; i < COUNT_OF(runs); i++) {
         write_text(tool_path("bad.csv"), runs[i].text);
         process p = draw_run(tool_path("bad.csv"), tool_path("bad.svg"));

@@ -2,12 +2,7 @@
  * one line on standard error with the fault, its place and the expected value; no incomplete file.
  * SPDX-License-Identifier: MIT */
 #include "support/close.h"
-#include "support/tool.h"
-
-static const char plate[] = KNURL_TEST_ASSETS "/plate_1d.glb";
-
-#define TAG                                                                                                            \
-    "{\"knurl\":{\"version\":1,\"spatial_frequency\":[1000,0],\"amplitude\":0.0002,\"stiffness\":400,\"axis\":[1,0,0]}}"
+#include "tool/plate.h"
 
 static void check_all_wrong(const wrong_line *table, size_t count) {
     write_text(tool_path("good.csv"), "vx,vy\n0.1,0\n");
@@ -249,9 +244,7 @@ TEST(an_existing_output_outlives_a_run_that_fails) {
         write_text(tool_path("kept.csv"), "mine\n");
         process p = RUN_TOOL("run", plate, "--fast", "--out", tool_path("kept.csv"), reasons[i][0], reasons[i][1]);
         assert_true(p.exit_code == 1 || p.exit_code == 2);
-        char *text = read_file(tool_path("kept.csv"));
-        assert_string_equal(text, "mine\n");
-        free(text);
+        check_text(tool_path("kept.csv"), "mine\n");
         process_free(&p);
         assert_int_equal(files_that_end(".part"), 0);
     }

@@ -1,23 +1,16 @@
 /* `knurl run`, the main job: its CSV and summary, fast and in real time, stopped by a signal, and its files.
  * SPDX-License-Identifier: MIT */
 #include "support/close.h"
-#include "support/tool.h"
-
-static const char plate[] = KNURL_TEST_ASSETS "/plate_1d.glb";
-
-#define HEADER "t,x,y,z,vx,vy,surface,depth,fs,ft,height,fx,fy,fz\n"
+#include "tool/plate.h"
 
 /* The CSV's columns. */
 enum { T, X, Y, Z, VX, VY, SURFACE, DEPTH, FS, FT, HEIGHT, FX, FY, FZ, COLUMNS };
 
 /* The written plate: 1 mm period along x, 0.2 mm, 400 N/m, round (0.25, 0.5, -0.125) m, facing up. */
-#define TAG                                                                                                            \
-    "{\"knurl\":{\"version\":1,\"spatial_frequency\":[1000,0],\"amplitude\":0.0002,\"stiffness\":400,\"axis\":[1,0,0]}}"
-
 /* Reads a run's CSV and checks that it is whole: header, so many rows, 14 cells each, a line's end behind the last. */
 static char *read_run(const char *path, size_t rows) {
     char *csv = read_file(path);
-    assert_true(strncmp(csv, HEADER, strlen(HEADER)) == 0);
+    assert_true(strncmp(csv, RUN_HEADER, strlen(RUN_HEADER)) == 0);
     assert_int_equal(lines_in(csv), rows + 1);
     assert_int_equal(csv[strlen(csv) - 1], '\n');
     const char *line = csv;
@@ -83,17 +76,10 @@ TEST(a_trace_on_a_plate_gives_the_forces_of_the_equations) {
 }
 
 TEST(the_summary_is_one_line_of_json_with_every_key_of_the_contract) {
-    static const char *const keys[] = {"ticks",       "contact_s", "events",    "overruns", "force_limit_ticks",
-                                       "force_max_n", "tick_ns",   "jitter_us", "p50",      "p99",
-                                       "max"};
     process p = RUN_TOOL("run", plate, "--fast", "--method", "S2"); /* which plays events at any speed */
     check_done(&p);
     assert_int_equal(lines_in(p.out), 1);
-    for (size_t i = 0; i < COUNT_OF(keys); i++) {
-        char quoted[64];
-        (void)snprintf(quoted, sizeof quoted, "\"%s\":", keys[i]);
-        assert_non_null(strstr(p.out, quoted));
-    }
+    check_keys(p.out, "ticks contact_s events overruns force_limit_ticks force_max_n tick_ns jitter_us p50 p99 max");
     CHECK_SAME(json_number_of(p.out, "ticks"), 5000.0L); /* 5 s at 1 kHz, unless said otherwise */
     assert_true(json_number_of(p.out, "contact_s") > 4.0);
     assert_true(json_number_of(p.out, "events") > 100.0);
@@ -247,9 +233,7 @@ TEST(an_output_is_replaced_only_by_a_whole_one) {
                          tool_path("out.csv"));
     assert_int_equal(p.exit_code, 2);
     process_free(&p);
-    char *text = read_file(tool_path("out.csv"));
-    assert_string_equal(text, "mine\n");
-    free(text);
+    check_text(tool_path("out.csv"), "mine\n");
     p = RUN_TOOL("run", plate, "--fast", "--seconds", "0.01", "--out", tool_path("out.csv"));
     check_done(&p);
     free(read_run(tool_path("out.csv"), 10));

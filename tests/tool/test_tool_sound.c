@@ -1,10 +1,7 @@
 /* `knurl run --wav`: a sound file of the run's length, with the line of the stroke's frequency.
  * SPDX-License-Identifier: MIT */
 #include "support/close.h"
-#include "support/tool.h"
-
-#define TAG                                                                                                            \
-    "{\"knurl\":{\"version\":1,\"spatial_frequency\":[1000,0],\"amplitude\":0.0002,\"stiffness\":400,\"axis\":[1,0,0]}}"
+#include "tool/plate.h"
 
 #define PI     3.14159265358979323846
 #define HEADER 44

@@ -2,11 +2,9 @@
  * SPDX-License-Identifier: MIT */
 #include "support/close.h"
 #include "support/terminal.h"
-#include "support/tool.h"
+#include "tool/plate.h"
 
 #include <fcntl.h>
-
-static const char plate[] = KNURL_TEST_ASSETS "/plate_1d.glb";
 
 static void check_says(process *p, int code, const char *sentence) {
     assert_int_equal(p->exit_code, code);
@@ -70,9 +68,7 @@ TEST(the_budget_of_loading_is_an_option) {
     check_says(&p, 1, "options.max_vertices: expected at most 11, found 12");
     p = RUN_TOOL("run", plate, "--fast", "--budget", "triangles=1,seconds=9.5");
     check_says(&p, 1, "options.max_triangles: expected at most 1, found 2");
-    p = RUN_TOOL("inspect", plate, "--budget", "surfaces=3,bytes=100000,vertices=36,triangles=6,seconds=60");
-    check_done(&p);
-    process_free(&p);
+    RUN_DONE("inspect", plate, "--budget", "surfaces=3,bytes=100000,vertices=36,triangles=6,seconds=60");
     static const char *const wrong[] = {"size=3",
                                         "bytes",
                                         "bytes=",

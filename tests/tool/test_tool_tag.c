@@ -1,8 +1,6 @@
 /* knurl tag: the surfaces afterwards, unchanged other bytes, and errors. SPDX-License-Identifier: MIT */
 #include "support/close.h"
-#include "support/tool.h"
-
-static const char plate[] = KNURL_TEST_ASSETS "/plate_1d.glb"; /* steel, its fourth material, has no tag */
+#include "tool/plate.h"
 
 static void check_same_bytes(const char *one, const char *other) {
     struct stat a;

@@ -1,10 +1,6 @@
 /* `knurl run --trace`: recorded counts, standard input, and traces that touch nothing. SPDX-License-Identifier: MIT */
 #include "support/close.h"
-#include "support/tool.h"
-
-/* The plate of tool.h: 1 mm period along x. */
-#define TAG                                                                                                            \
-    "{\"knurl\":{\"version\":1,\"spatial_frequency\":[1000,0],\"amplitude\":0.0002,\"stiffness\":400,\"axis\":[1,0,0]}}"
+#include "tool/plate.h"
 
 #define SPEED 0.119 /* m/s: 119 Hz */
 #define FT    7     /* the CSV's column */

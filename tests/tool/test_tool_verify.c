@@ -1,9 +1,6 @@
 /* `knurl verify`: its reports, its answers without a terminal, and arguments that are wrong.
  * SPDX-License-Identifier: MIT */
-#include "support/tool.h"
-
-#define TAG                                                                                                            \
-    "{\"knurl\":{\"version\":1,\"spatial_frequency\":[1000,0],\"amplitude\":0.0002,\"stiffness\":400,\"axis\":[1,0,0]}}"
+#include "tool/plate.h"
 
 static size_t count_of(const char *text, const char *word) {
     size_t count = 0;
