@@ -1,7 +1,7 @@
 /* Force Dimension's devices over the stand-in library: axes, forces, orientation, faults, ends.
  * SPDX-License-Identifier: MIT */
 #include "device/dhd/dhd_double.h"
-#include "support/close.h"
+#include "device/ticked.h"
 
 #include "base/atomic.h"
 #include "base/system.h"
@@ -12,97 +12,77 @@
 #include <knurl/loop.h>
 #include <stdlib.h>
 
-static knurl_result run(knurl_device *device, int ms, const double force[3], knurl_device_sample *sample) {
-    knurl_result result = KNURL_OK;
-    for (int i = 0; i < ms; i++) {
-        result = knurl_device_read(device, sample);
-        (void)knurl_device_write(device, force);
-        knurl_system_sleep_until_ns(knurl_system_now_ns() + 1000000);
-    }
-    return result;
+static int end(void **state) {
+    (void)close_device(state);
+    return dhd_stub.opens && dhd_stub.opens() != 0;
 }
 
-static const double none[3];
-
-static knurl_device *open_released(void) {
-    knurl_device_sample sample;
-    knurl_device *device = dhd_double.open();
-    if (!device) {
-        fail_msg("%s", knurl_error_message());
-    }
-    (void)run(device, 30, none, &sample);
-    knurl_port_release_halt(device);
-    return device;
+static void open_released(void) {
+    (void)close_device(NULL);
+    device = dhd_double.open();
+    run_released();
 }
 
 /* Against a hand of 700 N/m; friction may hold up to 0.3 N more or less. */
-TEST(a_force_moves_the_grip_where_it_points_and_no_torque_goes_out) {
+TEST_WITH(a_force_moves_the_grip_where_it_points_and_no_torque_goes_out, NULL, end) {
     for (int axis = 0; axis < 3; axis++) {
-        knurl_device_sample sample;
         double force[3] = {0.0, 0.0, 0.0};
         double told[3];
         double others[3];
-        knurl_device *device = open_released();
+        open_released();
         force[axis] = 2.0;
-        assert_int_equal(run(device, 1000, force, &sample), KNURL_OK);
-        CHECK_CLOSE(sample.position[axis], 2.0 / 700.0, 0.3 / 700.0 + 0.00002);
-        CHECK_CLOSE(sample.position[(axis + 1) % 3], 0.0, 0.00002);
+        assert_int_equal(run(1000, force), KNURL_OK);
+        CHECK_CLOSE(latest.position[axis], 2.0 / 700.0, 0.3 / 700.0 + 0.00002);
+        CHECK_CLOSE(latest.position[(axis + 1) % 3], 0.0, 0.00002);
         dhd_stub.ask(told, others);
         CHECK_CLOSE(told[axis], 2.0, 1e-12);
         CHECK_SAME(others[0], 0.0L);
-        assert_int_equal(sample.buttons, 1); /* from its first second on */
-        dhd_double.close(device);
-        assert_int_equal(dhd_stub.opens(), 0);
+        assert_int_equal(latest.buttons, 1); /* from its first second on */
+        assert_int_equal(end(NULL), 0);
     }
 }
 
 /* By 90 degrees about the vertical, Knurl's y. */
-TEST(the_orientation_of_the_grip_is_reported) {
-    knurl_device_sample sample;
-    knurl_device *device = open_released();
-    assert_int_equal(run(device, 10, none, &sample), KNURL_OK);
+TEST_WITH(the_orientation_of_the_grip_is_reported, NULL, end) {
+    open_released();
+    assert_int_equal(run(10, none), KNURL_OK);
     const double half = 0.7071067811865476;
-    CHECK_CLOSE(sample.orientation[0], 0.0, 1e-15);
-    CHECK_CLOSE(sample.orientation[1], half, 1e-15);
-    CHECK_CLOSE(sample.orientation[2], 0.0, 1e-15);
-    CHECK_CLOSE(sample.orientation[3], half, 1e-15);
-    dhd_double.close(device);
+    CHECK_CLOSE(latest.orientation[0], 0.0, 1e-15);
+    CHECK_CLOSE(latest.orientation[1], half, 1e-15);
+    CHECK_CLOSE(latest.orientation[2], 0.0, 1e-15);
+    CHECK_CLOSE(latest.orientation[3], half, 1e-15);
 }
 
-TEST(forces_are_no_stronger_than_it_can_play) {
+TEST_WITH(forces_are_no_stronger_than_it_can_play, NULL, end) {
     const double force[3] = {0.0, 100.0, 0.0};
-    knurl_device_sample sample;
     double told[3];
     double others[3];
-    knurl_device *device = open_released();
-    assert_int_equal(run(device, 10, force, &sample), KNURL_OK);
+    open_released();
+    assert_int_equal(run(10, force), KNURL_OK);
     dhd_stub.ask(told, others);
     CHECK_CLOSE(told[1], 12.0, 1e-12);
     const knurl_device_info info = device_info(device);
     assert_string_equal(info.name, "Force Dimension omega.3");
     CHECK_CLOSE(info.max_stiffness, 5000.0, 1e-9);
-    dhd_double.close(device);
 }
 
 /* Its button switches the forces off; the zero that follows does not arrive. */
-TEST(a_zero_that_was_refused_while_forces_are_off_does_not_count_as_sent) {
+TEST_WITH(a_zero_that_was_refused_while_forces_are_off_does_not_count_as_sent, NULL, end) {
     const double force[3] = {0.0, 2.0, 0.0};
-    knurl_device_sample sample;
-    knurl_device *device = open_released();
-    assert_int_equal(run(device, 20, force, &sample), KNURL_OK);
+    open_released();
+    assert_int_equal(run(20, force), KNURL_OK);
     dhd_stub.set(STUB_DHD_REFUSES, 1);
     dhd_double.inject(DOUBLE_OFF);
-    (void)run(device, 30, force, &sample);
+    (void)run(30, force);
     assert_int_equal(knurl_load_acquire(&device->quiet), 0);
     dhd_stub.set(STUB_DHD_REFUSES, 0);
-    (void)run(device, 30, force, &sample);
+    (void)run(30, force);
     assert_int_equal(knurl_load_acquire(&device->quiet), 1);
     dhd_double.inject(DOUBLE_WELL);
-    dhd_double.close(device);
 }
 
 /* As the maker's header numbers them; a lambda.3 and .6, a sigma.3 and .6 are taken for their families' others. */
-TEST(every_type_is_known_by_its_force_and_stiffness) {
+TEST_WITH(every_type_is_known_by_its_force_and_stiffness, NULL, end) {
     static const struct {
         int type;
         double max_force, max_stiffness;
@@ -110,19 +90,17 @@ TEST(every_type_is_known_by_its_force_and_stiffness) {
                  {107, 12, 4000}, {206, 12, 4000}, {108, 12, 4000}, {109, 12, 4000}, {131, 12, 4000},
                  {132, 12, 4000}, {203, 12, 4000}, {60, 8, 3000},   {91, 8, 3000}};
     for (size_t i = 0; i < COUNT_OF(cases); i++) {
-        knurl_device_sample sample;
-        knurl_device *device = open_released();
+        open_released();
         dhd_stub.set(STUB_DHD_TYPE, cases[i].type);
         dhd_double.inject(DOUBLE_UNPLUG);
-        (void)run(device, 20, none, &sample);
-        dhd_double.close(device);
+        (void)run(20, none);
+        (void)close_device(NULL);
         dhd_double.inject(DOUBLE_WELL);
         assert_int_equal(knurl_device_open("dhd", &device), KNURL_OK);
         const knurl_device_info info = device_info(device);
         if (info.max_force != cases[i].max_force || info.max_stiffness != cases[i].max_stiffness) {
             fail_msg("type %d: %g N, %g N/m", cases[i].type, info.max_force, info.max_stiffness);
         }
-        dhd_double.close(device);
     }
 }
 
@@ -134,10 +112,10 @@ static void pull(uint64_t tick, const knurl_device_sample *sample, double force[
 }
 
 /* Lets the loop run; returns the count of this event, and its value. */
-static int wait_and_count(knurl_device *device, int ms, int32_t code, double *value) {
+static int wait_and_count(int ms, int32_t code, double *value) {
     knurl_device_event event;
     int count = 0;
-    knurl_system_sleep_until_ns(knurl_system_now_ns() + ms * INT64_C(1000000));
+    sleep_ms(ms);
     while (knurl_device_next_event(device, &event)) {
         if (event.code == code) {
             count++;
@@ -149,7 +127,7 @@ static int wait_and_count(knurl_device *device, int ms, int32_t code, double *va
 
 /* Its button, its velocity threshold, its watchdog, a call, the cable, the grip; and one that this version does not
  * know. A rise of the ramp's: 1.28 N in 20 ms. */
-TEST(forces_that_are_switched_off_at_the_device_are_an_event_with_its_cause_and_come_back_by_a_ramp) {
+TEST_WITH(forces_that_are_switched_off_at_the_device_are_an_event_with_its_cause_and_come_back_by_a_ramp, NULL, end) {
     static const int causes[][2] = {{1, 1}, {2, 2}, {3, 3}, {4, 4}, {5, 5}, {6, 6}, {9, 0}};
     for (size_t i = 0; i < COUNT_OF(causes); i++) {
         double force[3];
@@ -157,39 +135,39 @@ TEST(forces_that_are_switched_off_at_the_device_are_an_event_with_its_cause_and_
         double value = -1.0;
         knurl_loop_desc desc;
         knurl_loop *loop = NULL;
-        knurl_device *device = dhd_double.open();
+        device = dhd_double.open();
         knurl_loop_desc_init(&desc, sizeof desc);
         desc.device = device;
         desc.force_callback = pull;
         assert_int_equal(knurl_loop_create(&desc, &loop), KNURL_OK);
         assert_int_equal(knurl_loop_start(loop), KNURL_OK);
-        (void)wait_and_count(device, 300, 0, &value);
+        (void)wait_and_count(300, 0, &value);
         dhd_stub.ask(force, others);
         CHECK_CLOSE(force[1], 1.28, 1e-12);
         dhd_stub.set(STUB_DHD_CAUSE, causes[i][0]);
         dhd_double.inject(DOUBLE_OFF);
-        assert_int_equal(wait_and_count(device, 500, KNURL_FAULT_FORCE_OFF, &value), 1);
+        assert_int_equal(wait_and_count(500, KNURL_FAULT_FORCE_OFF, &value), 1);
         CHECK_SAME(value, (long double)causes[i][1]);
         dhd_stub.ask(force, others);
         if (others[1] > 11.0) { /* status is read every 10 exchanges */
             fail_msg("told %g forces that were not played", others[1]);
         }
         dhd_double.inject(DOUBLE_WELL);
-        assert_int_equal(wait_and_count(device, 200, KNURL_FAULT_RESUMED, &value), 1);
+        assert_int_equal(wait_and_count(200, KNURL_FAULT_RESUMED, &value), 1);
         dhd_stub.ask(force, others);
         CHECK_CLOSE(force[1], 1.28, 1e-12);
         if (others[2] > 1.28 / 20.0 * 2.0) { /* two ticks may fall between two exchanges */
             fail_msg("came back by %g N in one exchange", others[2]);
         }
         knurl_loop_destroy(loop);
-        dhd_double.close(device);
+        (void)close_device(NULL);
     }
 }
 
-TEST(a_failed_open_gives_the_reason) {
-    knurl_device *device = open_released();
+TEST_WITH(a_failed_open_gives_the_reason, NULL, end) {
+    open_released();
     knurl_device *other = NULL;
-    dhd_double.close(device);
+    (void)close_device(NULL);
     CHECK_REFUSED(knurl_device_open("dhd:1", &other), KNURL_ERROR_DEVICE_LOST, other);
     check_message("device 'dhd:1': found 1 Force Dimension devices");
     CHECK_REFUSED(knurl_device_open("dhd:x", &other), KNURL_ERROR_ARGUMENT, other);
@@ -200,31 +178,25 @@ TEST(a_failed_open_gives_the_reason) {
 
 /* An omega (type 33, 12 N) is unplugged, and a Falcon (type 60, 8 N) has its place: the force limit is still the
  * omega's. */
-TEST(another_model_in_its_place_is_not_had_back) {
-    knurl_device_sample sample;
+TEST_WITH(another_model_in_its_place_is_not_had_back, NULL, end) {
     dhd_stub.set(STUB_DHD_TYPE, 33);
-    knurl_device *device = open_released();
+    open_released();
     dhd_double.inject(DOUBLE_UNPLUG);
-    assert_int_equal(run(device, 20, none, &sample), KNURL_ERROR_DEVICE_LOST);
+    assert_int_equal(run(20, none), KNURL_ERROR_DEVICE_LOST);
     dhd_stub.set(STUB_DHD_TYPE, 60);
     dhd_double.inject(DOUBLE_WELL);
     assert_int_equal(knurl_device_start(device, 1000.0), KNURL_ERROR_DEVICE_LOST);
     dhd_stub.set(STUB_DHD_TYPE, 33);
     assert_int_equal(knurl_device_start(device, 1000.0), KNURL_OK);
-    assert_int_equal(run(device, 50, none, &sample), KNURL_OK);
-    dhd_double.close(device);
-    assert_int_equal(dhd_stub.opens(), 0);
+    assert_int_equal(run(50, none), KNURL_OK);
 }
 
-TEST(a_pulled_cable_is_a_loss_and_the_device_is_had_back) {
-    knurl_device_sample sample;
-    knurl_device *device = open_released();
+TEST_WITH(a_pulled_cable_is_a_loss_and_the_device_is_had_back, NULL, end) {
+    open_released();
     dhd_double.inject(DOUBLE_UNPLUG);
-    assert_int_equal(run(device, 20, none, &sample), KNURL_ERROR_DEVICE_LOST);
+    assert_int_equal(run(20, none), KNURL_ERROR_DEVICE_LOST);
     assert_int_equal(knurl_device_start(device, 1000.0), KNURL_ERROR_DEVICE_LOST);
     dhd_double.inject(DOUBLE_WELL);
     assert_int_equal(knurl_device_start(device, 1000.0), KNURL_OK);
-    assert_int_equal(run(device, 50, none, &sample), KNURL_OK);
-    dhd_double.close(device);
-    assert_int_equal(dhd_stub.opens(), 0);
+    assert_int_equal(run(50, none), KNURL_OK);
 }

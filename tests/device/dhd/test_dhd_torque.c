@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT */
 #include "device/dhd/dhd_double.h"
 #include "support/close.h"
+#include "support/wait.h"
 
 #include "base/atomic.h"
 #include "base/system.h"
@@ -20,10 +21,6 @@
 /* Of a sigma.7: a third of CHAI3D's 0.2 N m and 8 N. */
 #define MOST_TORQUE (0.2 / 3.0)
 #define MOST_GRIP   (8.0 / 3.0)
-
-static void sleep_ms(int ms) {
-    knurl_system_sleep_until_ns(knurl_system_now_ns() + ms * INT64_C(1000000));
-}
 
 /* The stand-in is reset when the double opens, so the type is set then and the driver opened again. */
 static knurl_device *open_model(int type, int is_left, const char *uri) {
@@ -113,7 +110,7 @@ TEST(a_torque_and_a_grippers_force_reach_the_device_in_its_axes) {
         ask_for(1.0, 0.01, 0.02, 0.03, 1.5);
         knurl_device *device = open_model(SIGMA7, is_left, "dhd");
         knurl_loop *loop = start(device, 0.02);
-        sleep_ms(200);
+        sleep_ms(200.0);
         const stub_dhd_torque told = ask();
         CHECK_CLOSE(told.torque[0], 0.03, 1e-15);
         CHECK_CLOSE(told.torque[1], 0.01, 1e-15);
@@ -130,7 +127,7 @@ TEST(a_grippers_angle_and_the_joints_are_in_the_sample_and_the_angle_in_the_stat
         knurl_device_sample sample;
         knurl_device_status status;
         knurl_device *device = open_model(SIGMA7, is_left, "dhd");
-        sleep_ms(20);
+        sleep_ms(20.0);
         assert_int_equal(knurl_device_read(device, &sample), KNURL_OK);
         CHECK_CLOSE(sample.grip, 0.2, 1e-15);
         assert_int_equal(sample.joint_count, 7);
@@ -150,7 +147,7 @@ TEST(a_device_without_a_wrist_or_a_gripper_gets_no_torque) {
     CHECK_SAME(info.max_torque, 0.0L);
     CHECK_SAME(info.max_grip, 0.0L);
     knurl_loop *loop = start(device, 0.02);
-    sleep_ms(200);
+    sleep_ms(200.0);
     const stub_dhd_torque told = ask();
     double force[3];
     double others[3];
@@ -183,7 +180,7 @@ static void follow(knurl_scene *scene) {
     ask_for(1.25, 0.0, 0.05, 0.0, 2.0);
     knurl_device *device = open_model(SIGMA7, 0, "dhd");
     knurl_loop *loop = start_scene(device, 0.2, scene);
-    sleep_ms(300);
+    sleep_ms(300.0);
     for (int k = 0; k < 150; k++) { /* up, down by a pause, up, down to a third, and the ramp at the end */
         double force[3];
         double others[3];
@@ -196,7 +193,7 @@ static void follow(knurl_scene *scene) {
         } else if (k == 120) {
             knurl_loop_request_stop(loop);
         }
-        sleep_ms(10);
+        sleep_ms(10.0);
         dhd_stub.ask(force, others);
         const stub_dhd_torque told = ask();
         CHECK_CLOSE(told.torque[2], force[1] * 0.04, 1e-3 * 0.05 + 0.05 / 200.0); /* an exchange may come in between */
@@ -225,12 +222,12 @@ static const double no_force[3];
 /* Without a force the age of a torque counts as a force's does: 10 ms. */
 TEST(a_torque_is_played_for_one_write_and_no_longer_than_a_force) {
     knurl_device *device = open_model(SIGMA7, 0, "dhd");
-    sleep_ms(20);
+    sleep_ms(20.0);
     for (int writes = 1; writes <= 2; writes++) {
         knurl_port_release_halt(device);
         knurl_port_set_torque(device, 1.0, &some);
         assert_int_equal(knurl_device_write(device, no_force), KNURL_OK);
-        sleep_ms(5);
+        sleep_ms(5.0);
         CHECK_CLOSE(ask().grip, 1.0, 1e-15);
         if (writes == 2) {
             assert_int_equal(knurl_device_write(device, no_force), KNURL_OK);

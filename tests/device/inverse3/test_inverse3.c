@@ -2,37 +2,25 @@
  * SPDX-License-Identifier: MIT */
 #include "device/inverse3/inverse3_double.h"
 #include "device/inverse3/service.h"
-#include "support/close.h"
+#include "device/ticked.h"
 
 #include "base/system.h"
 #include "device/port.h"
 
 #include <knurl/device.h>
 
-static const double none[3];
-
-static knurl_result run(knurl_device *device, int ms, const double force[3], knurl_device_sample *sample) {
-    knurl_result result = KNURL_OK;
-    for (int i = 0; i < ms; i++) {
-        result = knurl_device_read(device, sample);
-        (void)knurl_device_write(device, force);
-        knurl_system_sleep_until_ns(knurl_system_now_ns() + 1000000);
-    }
-    return result;
+static void open_released(const char *options) {
+    (void)close_device(NULL);
+    device = inverse3_double_open(options);
+    run_released();
 }
 
-static knurl_device *open_released(const char *options) {
-    knurl_device_sample sample;
-    knurl_device *device = inverse3_double_open(options);
-    if (!device) {
-        fail_msg("%s", knurl_error_message());
-    }
-    (void)run(device, 30, none, &sample);
-    knurl_port_release_halt(device);
-    return device;
+static void check_open_refused(const char *options, knurl_result code, const char *words) {
+    CHECK_REFUSED(knurl_inverse3_open(options, inverse3_double_service(), &device), code, device);
+    check_message(words);
 }
 
-static int has_event(knurl_device *device, int32_t code) {
+static int has_event(int32_t code) {
     knurl_device_event event;
     int has = 0;
     while (knurl_device_next_event(device, &event)) {
@@ -42,25 +30,24 @@ static int has_event(knurl_device *device, int32_t code) {
 }
 
 /* Against a hand of 700 N/m; friction may hold up to 0.3 N more or less. */
-TEST(a_force_moves_the_grip_where_it_points) {
+TEST_WITH(a_force_moves_the_grip_where_it_points, NULL, close_device) {
     for (int axis = 0; axis < 3; axis++) {
-        knurl_device_sample sample;
         double force[3] = {0.0, 0.0, 0.0};
-        knurl_device *device = open_released("");
+        open_released("");
         force[axis] = 2.0;
-        assert_int_equal(run(device, 1100, force, &sample), KNURL_OK);
-        CHECK_CLOSE(sample.position[axis], 2.0 / 700.0, 0.3 / 700.0 + 0.00002);
-        CHECK_CLOSE(sample.position[(axis + 1) % 3], 0.0, 0.00002);
-        assert_int_equal(sample.buttons, 1); /* from its first second on */
-        CHECK_CLOSE(sample.orientation[1], 0.7071067811865476, 1e-15);
-        CHECK_CLOSE(sample.orientation[3], 0.7071067811865476, 1e-15);
-        knurl_device_close(device);
+        assert_int_equal(run(1100, force), KNURL_OK);
+        CHECK_CLOSE(latest.position[axis], 2.0 / 700.0, 0.3 / 700.0 + 0.00002);
+        CHECK_CLOSE(latest.position[(axis + 1) % 3], 0.0, 0.00002);
+        assert_int_equal(latest.buttons, 1); /* from its first second on */
+        CHECK_CLOSE(latest.orientation[1], 0.7071067811865476, 1e-15);
+        CHECK_CLOSE(latest.orientation[3], 0.7071067811865476, 1e-15);
+        (void)close_device(NULL);
         assert_true(inverse3_double_sim()->limp_since >= 0.0);
         assert_int_equal(inverse3_double_connections(), 0);
     }
 }
 
-TEST(every_kind_of_grip_gives_orientation_and_buttons) {
+TEST_WITH(every_kind_of_grip_gives_orientation_and_buttons, NULL, close_device) {
     static const struct {
         int grip;
         uint32_t buttons;
@@ -70,90 +57,74 @@ TEST(every_kind_of_grip_gives_orientation_and_buttons) {
                  {INVERSE3_SIM_CUSTOM, 1, 0.7071067811865476},
                  {INVERSE3_SIM_NO_GRIP, 0, 0.0}};
     for (size_t i = 0; i < COUNT_OF(cases); i++) {
-        knurl_device_sample sample;
-        SCOPED_DEVICE *device = open_released("");
+        open_released("");
         inverse3_double_take()->grip = cases[i].grip;
         inverse3_double_give_back();
-        assert_int_equal(run(device, 1100, none, &sample), KNURL_OK); /* pressed from its first second on */
-        assert_int_equal(sample.buttons, cases[i].buttons);
-        CHECK_CLOSE(sample.orientation[1], cases[i].turned, 1e-15);
-        CHECK_CLOSE(sample.orientation[3], cases[i].turned, 1e-15);
+        assert_int_equal(run(1100, none), KNURL_OK); /* pressed from its first second on */
+        assert_int_equal(latest.buttons, cases[i].buttons);
+        CHECK_CLOSE(latest.orientation[1], cases[i].turned, 1e-15);
+        CHECK_CLOSE(latest.orientation[3], cases[i].turned, 1e-15);
     }
 }
 
 /* Degrees, as the service has them: -30.927332, 53.878685, -6.642623. */
-TEST(the_joints_angles_are_told_in_radians) {
-    knurl_device_sample sample;
-    SCOPED_DEVICE *device = open_released("");
-    assert_int_equal(run(device, 20, none, &sample), KNURL_OK);
-    assert_int_equal(sample.joint_count, 3);
-    CHECK_CLOSE(sample.joints[0], -30.927332 / 57.29577951308232, 1e-12);
-    CHECK_CLOSE(sample.joints[2], -6.642623 / 57.29577951308232, 1e-12);
+TEST_WITH(the_joints_angles_are_told_in_radians, NULL, close_device) {
+    open_released("");
+    assert_int_equal(run(20, none), KNURL_OK);
+    assert_int_equal(latest.joint_count, 3);
+    CHECK_CLOSE(latest.joints[0], -30.927332 / 57.29577951308232, 1e-12);
+    CHECK_CLOSE(latest.joints[2], -6.642623 / 57.29577951308232, 1e-12);
 }
 
-static knurl_device_status status_of(knurl_device *device) {
-    knurl_device_status status;
-    knurl_device_status_init(&status, sizeof status);
-    assert_int_equal(knurl_device_get_status(device, &status), KNURL_OK);
-    return status;
-}
-
-TEST(a_grips_battery_is_in_the_status_and_an_event_once_it_is_almost_empty) {
-    knurl_device_sample sample;
+TEST_WITH(a_grips_battery_is_in_the_status_and_an_event_once_it_is_almost_empty, NULL, close_device) {
     knurl_device_event event;
-    SCOPED_DEVICE *device = open_released("");
-    assert_int_equal(run(device, 20, none, &sample), KNURL_OK);
-    CHECK_CLOSE(status_of(device).battery, 1.0, 1e-15);
+    open_released("");
+    assert_int_equal(run(20, none), KNURL_OK);
+    CHECK_CLOSE(device_status(device).battery, 1.0, 1e-15);
     while (knurl_device_next_event(device, &event)) {}
     for (int k = 0; k < 2; k++) {
         inverse3_double_take()->discharged = k ? 0.875 : 0.75;
         inverse3_double_give_back();
-        assert_int_equal(run(device, 20, none, &sample), KNURL_OK);
-        CHECK_CLOSE(status_of(device).battery, k ? 0.125 : 0.25, 1e-15);
+        assert_int_equal(run(20, none), KNURL_OK);
+        CHECK_CLOSE(device_status(device).battery, k ? 0.125 : 0.25, 1e-15);
         assert_int_equal(knurl_device_next_event(device, &event), k);
     }
     assert_int_equal(event.code, KNURL_FAULT_BATTERY);
     CHECK_CLOSE(event.value, 0.125, 1e-15);
-    assert_int_equal(run(device, 20, none, &sample), KNURL_OK);
+    assert_int_equal(run(20, none), KNURL_OK);
     assert_int_equal(knurl_device_next_event(device, &event), 0);
 }
 
-TEST(another_devices_grip_is_not_this_ones) {
-    knurl_device_sample sample;
-    SCOPED_DEVICE *device = open_released("?grip=1402");
-    assert_int_equal(run(device, 1100, none, &sample), KNURL_OK); /* 61576 is pressed from its first second on */
-    assert_int_equal(sample.buttons, 0);
-    CHECK_SAME(sample.orientation[3], 0.0L);
+TEST_WITH(another_devices_grip_is_not_this_ones, NULL, close_device) {
+    open_released("?grip=1402");
+    assert_int_equal(run(1100, none), KNURL_OK); /* 61576 is pressed from its first second on */
+    assert_int_equal(latest.buttons, 0);
+    CHECK_SAME(latest.orientation[3], 0.0L);
     inverse3_double_take()->grip = INVERSE3_SIM_CUSTOM;
     inverse3_double_give_back();
-    assert_int_equal(run(device, 20, none, &sample), KNURL_OK);
-    assert_int_equal(sample.buttons, 1);
+    assert_int_equal(run(20, none), KNURL_OK);
+    assert_int_equal(latest.buttons, 1);
 }
 
-TEST(gravity_compensation_is_switched_by_the_uri_and_otherwise_left_alone) {
+TEST_WITH(gravity_compensation_is_switched_by_the_uri_and_otherwise_left_alone, NULL, close_device) {
     static const char *const options[] = {"", "?gravity=1", "?gravity=0"};
     static const int expected[] = {0, 1, -1};
     for (size_t i = 0; i < COUNT_OF(options); i++) {
-        SCOPED_DEVICE *device = open_released(options[i]);
+        open_released(options[i]);
         assert_int_equal(inverse3_double_sim()->gravity, expected[i]);
     }
 }
 
 /* The maker's tutorial 06: a sphere of 0.1 m, of a Minverse 0.04 m. Nothing is published of a Minverse's force. */
-TEST(each_type_has_its_own_name_workspace_and_force_and_others_are_refused) {
+TEST_WITH(each_type_has_its_own_name_workspace_and_force_and_others_are_refused, NULL, close_device) {
     static const struct {
         const char *type, *name;
         double radius, max_force;
     } cases[] = {{"inverse3", "Haply Inverse3", 0.1, 4.0},
                  {"inverse3x", "Haply Inverse3x", 0.1, 4.0},
                  {"minverse", "Haply Minverse", 0.04, 1.0}};
-    struct {
-        knurl_device *device;
-    } out = {NULL};
     for (size_t i = 0; i < COUNT_OF(cases); i++) {
         const double force[3] = {0.0, 100.0, 0.0};
-        knurl_device_sample sample;
-        SCOPED_DEVICE *device = NULL;
         inverse3_double_begin();
         inverse3_double_sim()->type = cases[i].type;
         assert_int_equal(knurl_inverse3_open("", inverse3_double_service(), &device), KNURL_OK);
@@ -161,38 +132,35 @@ TEST(each_type_has_its_own_name_workspace_and_force_and_others_are_refused) {
         assert_memory_equal(info.name, cases[i].name, strlen(cases[i].name));
         CHECK_CLOSE(info.workspace_max[1], cases[i].radius / sqrt(3.0), 1e-12);
         CHECK_SAME(info.max_force, cases[i].max_force);
-        (void)run(device, 30, none, &sample);
-        knurl_port_release_halt(device);
-        (void)run(device, 10, force, &sample);
+        run_released();
+        (void)run(10, force);
         CHECK_CLOSE(inverse3_double_sim()->force[2], cases[i].max_force, 1e-12);
+        (void)close_device(NULL);
     }
     inverse3_double_begin();
     inverse3_double_sim()->type = "inverse9";
-    CHECK_REFUSED(knurl_inverse3_open("", inverse3_double_service(), &out.device), KNURL_ERROR_UNSUPPORTED, out);
-    check_message("expected an inverse3, inverse3x or minverse, found 'inverse9'");
+    check_open_refused("", KNURL_ERROR_UNSUPPORTED, "expected an inverse3, inverse3x or minverse, found 'inverse9'");
 }
 
 /* The service's filter pipeline: viscous damping is set for the session, its oscillation damper cannot be, and the
  * force gate's gain has no published meaning: it is kept, and shown in the device's name. */
-TEST(the_sessions_damping_is_off_and_the_force_gate_is_reported) {
-    knurl_device_sample sample;
-    SCOPED_DEVICE *device = open_released("");
+TEST_WITH(the_sessions_damping_is_off_and_the_force_gate_is_reported, NULL, close_device) {
+    open_released("");
     CHECK_SAME(inverse3_double_sim()->damping, 0.0);
     const knurl_device_info info = device_info(device);
     assert_string_equal(info.name, "Haply Inverse3 (force gate 0.3)");
     inverse3_double.inject(DOUBLE_UNPLUG);
-    (void)run(device, 100, none, &sample);
+    (void)run(100, none);
     inverse3_double.inject(DOUBLE_WELL);
     assert_int_equal(knurl_device_start(device, 1000.0), KNURL_OK); /* a session of its own */
     CHECK_SAME(inverse3_double_sim()->damping, 0.0);
 }
 
 /* The data sheet's figures; the workspace is the cube in the sphere that the maker's tutorial 06 keeps within. */
-TEST(forces_are_no_stronger_than_it_can_play) {
+TEST_WITH(forces_are_no_stronger_than_it_can_play, NULL, close_device) {
     const double force[3] = {0.0, 100.0, 0.0};
-    knurl_device_sample sample;
-    SCOPED_DEVICE *device = open_released("");
-    (void)run(device, 10, force, &sample);
+    open_released("");
+    (void)run(10, force);
     CHECK_CLOSE(inverse3_double_sim()->force[2], 4.0, 1e-12); /* up in Knurl is the service's z */
     const knurl_device_info info = device_info(device);
     CHECK_SAME(info.max_force, 4.0);
@@ -201,52 +169,37 @@ TEST(forces_are_no_stronger_than_it_can_play) {
     CHECK_CLOSE(info.workspace_max[0], 0.1 / sqrt(3.0), 1e-12);
 }
 
-TEST(of_two_devices_the_one_that_is_named_is_moved_and_read) {
+TEST_WITH(of_two_devices_the_one_that_is_named_is_moved_and_read, NULL, close_device) {
     static const double force[3] = {0.0, 1.0, 0.0};
-    knurl_device_sample sample;
-    SCOPED_DEVICE *device = NULL;
     inverse3_double_begin();
     inverse3_double_sim()->has_second = 1;
     assert_int_equal(knurl_inverse3_open("049D", inverse3_double_service(), &device), KNURL_OK);
-    (void)run(device, 30, none, &sample);
-    knurl_port_release_halt(device);
-    assert_int_equal(run(device, 500, force, &sample), KNURL_OK);
-    CHECK_CLOSE(sample.position[0], 0.0, 0.00002); /* the other one is at 0.05 */
+    run_released();
+    assert_int_equal(run(500, force), KNURL_OK);
+    CHECK_CLOSE(latest.position[0], 0.0, 0.00002); /* the other one is at 0.05 */
     CHECK_SAME(inverse3_double_sim()->force[2], 1.0);
     CHECK_SAME(inverse3_double_sim()->force_of_second[2], 0.0);
 }
 
-TEST(a_failed_open_gives_the_reason) {
-    const knurl_inverse3_service *service = inverse3_double_service();
-    struct {
-        knurl_device *device;
-    } out = {NULL};
+TEST_WITH(a_failed_open_gives_the_reason, NULL, close_device) {
     inverse3_double_begin();
-    CHECK_REFUSED(knurl_inverse3_open("1234", service, &out.device), KNURL_ERROR_DEVICE_LOST, out);
-    check_message("no Inverse3 '1234', only '049D'");
-    CHECK_REFUSED(knurl_inverse3_open("a_name_that_is_too_long", service, &out.device), KNURL_ERROR_ARGUMENT, out);
-    check_message("a_name_that_is_too_long");
-    CHECK_REFUSED(knurl_inverse3_open("?port=0", service, &out.device), KNURL_ERROR_ARGUMENT, out);
-    CHECK_REFUSED(knurl_inverse3_open("?port=1e9", service, &out.device), KNURL_ERROR_ARGUMENT, out);
-    CHECK_REFUSED(knurl_inverse3_open("?host=example.org", service, &out.device), KNURL_ERROR_ARGUMENT, out);
-    check_message("expected port=");
+    check_open_refused("1234", KNURL_ERROR_DEVICE_LOST, "no Inverse3 '1234', only '049D'");
+    check_open_refused("a_name_that_is_too_long", KNURL_ERROR_ARGUMENT, "a_name_that_is_too_long");
+    check_open_refused("?port=0", KNURL_ERROR_ARGUMENT, "");
+    check_open_refused("?port=1e9", KNURL_ERROR_ARGUMENT, "");
+    check_open_refused("?host=example.org", KNURL_ERROR_ARGUMENT, "expected port=");
     inverse3_double_sim()->is_old = 1;
-    CHECK_REFUSED(knurl_inverse3_open("", service, &out.device), KNURL_ERROR_UNSUPPORTED, out);
-    check_message("3.5 or newer");
+    check_open_refused("", KNURL_ERROR_UNSUPPORTED, "3.5 or newer");
     inverse3_double_sim()->is_gone = 1;
-    CHECK_REFUSED(knurl_inverse3_open("", service, &out.device), KNURL_ERROR_DEVICE_LOST, out);
-    check_message("lists no Inverse3: plug it in");
+    check_open_refused("", KNURL_ERROR_DEVICE_LOST, "lists no Inverse3: plug it in");
     inverse3_double_say("[]", 2);
-    CHECK_REFUSED(knurl_inverse3_open("", service, &out.device), KNURL_ERROR_DEVICE_LOST, out);
+    check_open_refused("", KNURL_ERROR_DEVICE_LOST, "");
     inverse3_double_say("hello", 5);
-    CHECK_REFUSED(knurl_inverse3_open("", service, &out.device), KNURL_ERROR_DEVICE_LOST, out);
-    check_message("is not the Haply Inverse Service");
+    check_open_refused("", KNURL_ERROR_DEVICE_LOST, "is not the Haply Inverse Service");
     inverse3_double.inject(DOUBLE_MUTE);
-    CHECK_REFUSED(knurl_inverse3_open("", service, &out.device), KNURL_ERROR_DEVICE_LOST, out);
-    check_message("found nothing");
+    check_open_refused("", KNURL_ERROR_DEVICE_LOST, "found nothing");
     inverse3_double_end_service(1);
-    CHECK_REFUSED(knurl_inverse3_open("", service, &out.device), KNURL_ERROR_DEVICE_LOST, out);
-    check_message("does not answer at localhost:10001 (conn fail: 111)");
+    check_open_refused("", KNURL_ERROR_DEVICE_LOST, "does not answer at localhost:10001 (conn fail: 111)");
     assert_int_equal(inverse3_double_connections(), 0);
 }
 
@@ -284,20 +237,19 @@ TEST(its_devices_are_listed_by_id_or_the_reason_is_given) {
 
 static void check_lost_and_had_back(void (*lose)(void), void (*mend)(void)) {
     static const double force[3] = {0.0, 1.0, 0.0};
-    knurl_device_sample sample;
-    knurl_device *device = open_released("");
-    (void)run(device, 50, force, &sample);
+    open_released("");
+    (void)run(50, force);
     lose();
-    assert_int_equal(run(device, 20, force, &sample), KNURL_ERROR_DEVICE_LOST);
+    assert_int_equal(run(20, force), KNURL_ERROR_DEVICE_LOST);
     assert_int_equal(knurl_port_is_halted(device), 1);
-    assert_true(has_event(device, KNURL_FAULT_LOST));
+    assert_true(has_event(KNURL_FAULT_LOST));
     assert_int_equal(knurl_device_start(device, 1000.0), KNURL_ERROR_DEVICE_LOST);
     mend();
     assert_int_equal(knurl_device_start(device, 1000.0), KNURL_OK);
-    assert_int_equal(run(device, 50, force, &sample), KNURL_OK);
+    assert_int_equal(run(50, force), KNURL_OK);
     CHECK_SAME(inverse3_double_sim()->force[2], 0.0); /* zero until the halt is released */
-    CHECK_CLOSE(sample.position[0], 0.0, 0.001);      /* positions count from the middle again */
-    knurl_device_close(device);
+    CHECK_CLOSE(latest.position[0], 0.0, 0.001);      /* positions count from the middle again */
+    (void)close_device(NULL);
     assert_int_equal(inverse3_double_connections(), 0);
 }
 
@@ -319,49 +271,47 @@ static void begin_service(void) {
     inverse3_double_end_service(0);
 }
 
-TEST(a_pulled_cable_is_a_loss_and_the_device_is_had_back) {
+TEST_WITH(a_pulled_cable_is_a_loss_and_the_device_is_had_back, NULL, close_device) {
     check_lost_and_had_back(unplug, plug_in);
 }
 
-TEST(a_service_that_ends_is_a_loss_and_the_device_is_had_back) {
+TEST_WITH(a_service_that_ends_is_a_loss_and_the_device_is_had_back, NULL, close_device) {
     check_lost_and_had_back(end_service, begin_service);
 }
 
 /* An answer without a position, one that is too long (size 0), other JSON. */
-TEST(an_invalid_answer_zeroes_the_force_and_is_counted) {
+TEST_WITH(an_invalid_answer_zeroes_the_force_and_is_counted, NULL, close_device) {
     static const struct {
         const char *text;
         size_t size;
     } answers[] = {{"", 0}, {"{\"inverse3\":[{\"device_id\":\"049D\"}]}", 36}, {"null", 4}, {"\377\376\375", 3}};
     static const double force[3] = {0.0, 1.0, 0.0};
     for (size_t i = 0; i < COUNT_OF(answers); i++) {
-        knurl_device_sample sample;
-        SCOPED_DEVICE *device = open_released("");
-        (void)run(device, 50, force, &sample);
+        open_released("");
+        (void)run(50, force);
         CHECK_SAME(inverse3_double_sim()->force[2], 1.0);
         inverse3_double_say(answers[i].text, answers[i].size);
-        (void)run(device, 5, force, &sample);
+        (void)run(5, force);
         CHECK_SAME(inverse3_double_sim()->force[2], 0.0);
-        assert_true(has_event(device, KNURL_FAULT_CORRUPT));
-        assert_int_equal(run(device, 20, force, &sample), KNURL_ERROR_DEVICE_NOT_READY);
+        assert_true(has_event(KNURL_FAULT_CORRUPT));
+        assert_int_equal(run(20, force), KNURL_ERROR_DEVICE_NOT_READY);
         const knurl_device_status status = device_status(device);
         assert_true(status.bad_bytes >= answers[i].size);
         inverse3_double_say(NULL, 0);
-        assert_int_equal(run(device, 20, force, &sample), KNURL_OK);
+        assert_int_equal(run(20, force), KNURL_OK);
     }
 }
 
 /* One answer per message, in order: answers to earlier messages are not present positions. */
-TEST(answers_that_stay_behind_are_no_positions) {
+TEST_WITH(answers_that_stay_behind_are_no_positions, NULL, close_device) {
     static const double force[3] = {0.0, 1.0, 0.0};
-    knurl_device_sample sample;
-    SCOPED_DEVICE *device = open_released("");
-    (void)run(device, 50, force, &sample);
+    open_released("");
+    (void)run(50, force);
     inverse3_double.inject(DOUBLE_LATE);
-    (void)run(device, 200, force, &sample);
-    assert_int_equal(run(device, 1, force, &sample), KNURL_ERROR_DEVICE_NOT_READY);
-    assert_true(has_event(device, KNURL_FAULT_SILENT));
+    (void)run(200, force);
+    assert_int_equal(run(1, force), KNURL_ERROR_DEVICE_NOT_READY);
+    assert_true(has_event(KNURL_FAULT_SILENT));
     CHECK_SAME(inverse3_double_sim()->force[2], 0.0);
     inverse3_double.inject(DOUBLE_WELL);
-    assert_int_equal(run(device, 50, none, &sample), KNURL_OK);
+    assert_int_equal(run(50, none), KNURL_OK);
 }

@@ -2,6 +2,7 @@
  * device. SPDX-License-Identifier: MIT */
 #include "device/inverse3/inverse3_double.h"
 #include "support/close.h"
+#include "support/wait.h"
 
 #include "base/system.h"
 
@@ -13,10 +14,6 @@ static void pull(uint64_t tick, const knurl_device_sample *sample, double force[
     (void)sample;
     (void)user;
     force[1] = 2.0;
-}
-
-static void wait_ms(int ms) {
-    knurl_system_sleep_until_ns(knurl_system_now_ns() + ms * INT64_C(1000000));
 }
 
 static inverse3_sim look(void) {
@@ -36,22 +33,34 @@ static void leave_out(int states) {
     inverse3_double_give_back();
 }
 
+static knurl_device *device;
+static knurl_loop *loop;
+
+static int end(void **state) {
+    (void)state;
+    knurl_loop_destroy(loop);
+    loop = NULL;
+    knurl_device_close(device);
+    device = NULL;
+    return 0;
+}
+
 /* A device in a loop that pulls with 2 N. */
-static knurl_device *open_in_loop(knurl_loop **loop) {
+static void open_in_loop(void) {
     knurl_loop_desc desc;
-    knurl_device *device = inverse3_double_open("");
+    (void)end(NULL);
+    device = inverse3_double_open("");
     knurl_loop_desc_init(&desc, sizeof desc);
     desc.device = device;
     desc.force_callback = pull;
-    assert_int_equal(knurl_loop_create(&desc, loop), KNURL_OK);
-    assert_int_equal(knurl_loop_start(*loop), KNURL_OK);
-    wait_ms(300);
+    assert_int_equal(knurl_loop_create(&desc, &loop), KNURL_OK);
+    assert_int_equal(knurl_loop_start(loop), KNURL_OK);
+    sleep_ms(300.0);
     CHECK_CLOSE(look().force[2], 2.0, 1e-12);
-    return device;
 }
 
 /* Removes all events. Returns the count of this one, and its last value. */
-static int count_events(knurl_device *device, int32_t code, double *value) {
+static int count_events(int32_t code, double *value) {
     knurl_device_event event;
     int count = 0;
     while (knurl_device_next_event(device, &event)) {
@@ -64,28 +73,26 @@ static int count_events(knurl_device *device, int32_t code, double *value) {
 }
 
 /* Of the ramp's 2 N in 20 ms: two ticks may fall between two exchanges. */
-TEST(without_power_or_not_ready_it_gets_zero_force_and_the_force_comes_back_by_a_ramp) {
+TEST_WITH(without_power_or_not_ready_it_gets_zero_force_and_the_force_comes_back_by_a_ramp, NULL, end) {
     static const int causes[] = {KNURL_FORCE_OFF_POWER, KNURL_FORCE_OFF_NOT_READY};
     for (size_t i = 0; i < COUNT_OF(causes); i++) {
         double value = -1.0;
-        knurl_loop *loop = NULL;
-        SCOPED_DEVICE *device = open_in_loop(&loop);
-        (void)count_events(device, 0, &value);
+        open_in_loop();
+        (void)count_events(0, &value);
         inverse3_double.inject(i == 0 ? DOUBLE_OFF : DOUBLE_WELL);
         make_ready(i == 0);
-        wait_ms(500);
-        assert_int_equal(count_events(device, KNURL_FAULT_FORCE_OFF, &value), 1);
+        sleep_ms(500.0);
+        assert_int_equal(count_events(KNURL_FAULT_FORCE_OFF, &value), 1);
         CHECK_SAME(value, (long double)causes[i]);
         assert_in_range(look().told_while_off, 0, 2);
         make_ready(1);
         inverse3_double.inject(DOUBLE_WELL);
-        wait_ms(200);
-        assert_int_equal(count_events(device, KNURL_FAULT_RESUMED, &value), 1);
+        sleep_ms(200.0);
+        assert_int_equal(count_events(KNURL_FAULT_RESUMED, &value), 1);
         CHECK_CLOSE(look().force[2], 2.0, 1e-12);
         if (look().greatest_rise > 0.2) {
             fail_msg("came back by %g N in one exchange", look().greatest_rise);
         }
-        knurl_loop_destroy(loop);
     }
 }
 
@@ -94,53 +101,47 @@ TEST(without_power_or_not_ready_it_gets_zero_force_and_the_force_comes_back_by_a
     "\"inverse\",\"device_id\":\"" id "\",\"safety_type\":\"" type "\"},\"message\":\"\"}"
 
 /* As https://docs.haply.co/inverseSDK/service/events has it; another device's brake, and other events, do nothing. */
-TEST(its_emergency_brake_is_an_event_and_the_force_comes_back_by_a_ramp) {
+TEST_WITH(its_emergency_brake_is_an_event_and_the_force_comes_back_by_a_ramp, NULL, end) {
     double value = -1.0;
-    knurl_loop *loop = NULL;
-    SCOPED_DEVICE *device = open_in_loop(&loop);
-    (void)count_events(device, 0, &value);
+    open_in_loop();
+    (void)count_events(0, &value);
     inverse3_double_tell(SAFETY("0A11", "ebrake_triggered"));
-    wait_ms(20);
+    sleep_ms(20.0);
     inverse3_double_tell(SAFETY("049D", "stall_detected"));
-    wait_ms(20);
+    sleep_ms(20.0);
     inverse3_double_tell("{\"name\":7");
-    wait_ms(20);
+    sleep_ms(20.0);
     CHECK_CLOSE(look().force[2], 2.0, 1e-12);
     inverse3_double_tell(SAFETY("049D", "ebrake_triggered"));
     inverse3_double_tell(SAFETY("0A11", "ebrake_released")); /* within the same exchange */
-    wait_ms(100);
-    assert_int_equal(count_events(device, KNURL_FAULT_FORCE_OFF, &value), 1);
+    sleep_ms(100.0);
+    assert_int_equal(count_events(KNURL_FAULT_FORCE_OFF, &value), 1);
     CHECK_SAME(value, (long double)KNURL_FORCE_OFF_BRAKE);
     CHECK_SAME(look().told[2], 0.0L);
     make_ready(1); /* forgets the rise at the start */
     inverse3_double_tell(SAFETY("049D", "ebrake_released"));
-    wait_ms(200);
-    assert_int_equal(count_events(device, KNURL_FAULT_RESUMED, &value), 1);
+    sleep_ms(200.0);
+    assert_int_equal(count_events(KNURL_FAULT_RESUMED, &value), 1);
     CHECK_CLOSE(look().force[2], 2.0, 1e-12);
     assert_true(look().greatest_rise <= 0.2);
-    knurl_loop_destroy(loop);
 }
 
-TEST(a_state_that_leaves_the_device_out_once_changes_nothing) {
+TEST_WITH(a_state_that_leaves_the_device_out_once_changes_nothing, NULL, end) {
     double value = 0.0;
-    knurl_loop *loop = NULL;
-    SCOPED_DEVICE *device = open_in_loop(&loop);
-    (void)count_events(device, 0, &value);
+    open_in_loop();
+    (void)count_events(0, &value);
     leave_out(1);
-    wait_ms(100);
-    assert_int_equal(count_events(device, KNURL_FAULT_LOST, &value), 0);
+    sleep_ms(100.0);
+    assert_int_equal(count_events(KNURL_FAULT_LOST, &value), 0);
     CHECK_CLOSE(look().told[2], 2.0, 1e-12);
-    knurl_loop_destroy(loop);
 }
 
 /* It may still be connected, and play its last force. */
-TEST(a_skipped_device_gets_zero_force_before_it_counts_as_lost) {
+TEST_WITH(a_skipped_device_gets_zero_force_before_it_counts_as_lost, NULL, end) {
     double value = 0.0;
-    knurl_loop *loop = NULL;
-    SCOPED_DEVICE *device = open_in_loop(&loop);
+    open_in_loop();
     leave_out(1000000);
-    wait_ms(100);
-    assert_int_equal(count_events(device, KNURL_FAULT_LOST, &value), 1);
+    sleep_ms(100.0);
+    assert_int_equal(count_events(KNURL_FAULT_LOST, &value), 1);
     CHECK_SAME(look().told[2], 0.0);
-    knurl_loop_destroy(loop);
 }
