@@ -25,6 +25,30 @@ static inline knurl_scene *scene_with_hip(surface_parts *parts, const knurl_hip_
     return scene;
 }
 
+/** An empty scene. full_model: of its description. */
+static inline knurl_scene *scene_of_model(uint32_t full_model) {
+    knurl_scene_desc desc;
+    knurl_scene *scene = NULL;
+    knurl_scene_desc_init(&desc, sizeof desc);
+    desc.full_model = full_model;
+    assert_int_equal(knurl_scene_create(&desc, &scene), KNURL_OK);
+    return scene;
+}
+
+/** Moves the first surface to a place, not turned. */
+static inline void glide_to(knurl_scene *scene, double x, double y, double z, double seconds) {
+    const double position[3] = {x, y, z}, rotation[4] = {0.0, 0.0, 0.0, 1.0};
+    const knurl_surface_id first = knurl_scene_get_surface(scene, 0);
+    assert_int_equal(knurl_scene_set_transform(scene, first, position, rotation, seconds), KNURL_OK);
+}
+
+/** With HIP 0 configured plainly. Returns the scene. */
+static inline knurl_scene *commit_plainly(knurl_scene *scene) {
+    configure_plainly(scene, 0);
+    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
+    return scene;
+}
+
 /** HIP 0's counts. */
 static inline knurl_hip_counts counts_of(const knurl_scene *scene) {
     knurl_hip_counts counts;

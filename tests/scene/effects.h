@@ -2,7 +2,7 @@
 #ifndef KNURL_TEST_EFFECTS_H
 #define KNURL_TEST_EFFECTS_H
 
-#include "support/scenes.h"
+#include "scene/ask.h"
 
 #define KINDS  6
 #define AS_ONE 1e-12 /* N: rounding */
@@ -10,9 +10,7 @@
 /* A committed scene without surfaces, its HIP plain. */
 static inline knurl_scene *free_scene(void) {
     knurl_scene *scene = empty_scene(1);
-    configure_plainly(scene, 0);
-    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
-    return scene;
+    return commit_plainly(scene);
 }
 
 static inline knurl_effect effect_of(int32_t kind) {

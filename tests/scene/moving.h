@@ -28,11 +28,23 @@ static knurl_tick_output stand_at(knurl_scene *scene, double x, double y, double
     return tick_moving(scene, (const double[3]){x, y, z}, (const double[3]){0.0, 0.0, 0.0});
 }
 
+/* Raises a surface, not turned, to z at (0, 0). */
+static inline void raise_to(knurl_scene *scene, knurl_surface_id id, double z, double seconds) {
+    const pose there = at_height(0.0, 0.0, z);
+    move_to(scene, id, &there, seconds);
+}
+
+/* HIP 0 stands 1 mm deep in it. */
 static knurl_scene *stood_on(surface_parts *parts, knurl_surface_id *id) {
     knurl_scene *scene = scene_of(parts);
     *id = knurl_scene_get_surface(scene, 0);
     (void)stand_at(scene, 0.0, 0.0, -0.001);
     return scene;
+}
+
+static inline knurl_scene *stood_on_plane(knurl_surface_id *id) {
+    surface_parts parts = wide_plane();
+    return stood_on(&parts, id);
 }
 
 #endif

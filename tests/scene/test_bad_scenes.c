@@ -54,8 +54,7 @@ TEST(bad_meshes_are_refused_while_ticks_go_on) {
         s.indices[i] = i % 2;
     }
     check_refused(scene, &bad, "area");
-    knurl_scene_destroy(scene);
-    assert_int_equal(books.blocks, 0);
+    end_with(scene, &books);
 }
 
 /* Ticks about a shape, from all over and close to its corners: finite, and at most K times the reported depth. */

@@ -1,5 +1,6 @@
 /* The closest point among many surfaces: the search through the hierarchy, from an earlier answer and in a batch gives
  * the result of a test of every surface, bit for bit. SPDX-License-Identifier: MIT */
+#include "scene/ask.h"
 #include "support/poses.h"
 
 #define SURFACES 120
@@ -35,8 +36,7 @@ static crowd make_crowd(int is_indexed, const shape *sheet, const shape *ball) {
         c.ids[i] = add_surface(c.scene, &kinds[i % 3]);
     }
     if (is_indexed) {
-        configure_plainly(c.scene, 0);
-        assert_int_equal(knurl_scene_commit(c.scene), KNURL_OK);
+        (void)commit_plainly(c.scene);
         for (int i = 0; i < SURFACES; i++) {
             if (i % 3 == i / 3 % 3) {
                 assert_int_equal(knurl_scene_set_transform(c.scene, c.ids[i], later[i].position, later[i].quaternion,
@@ -145,8 +145,7 @@ TEST(a_surface_in_motion_is_found_where_it_is_now) {
     (void)add_surface(scene, &parts);
     parts.desc.position[2] = 0.3;
     const knurl_surface_id lift = add_surface(scene, &parts);
-    configure_plainly(scene, 0);
-    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
+    (void)commit_plainly(scene);
     parts.desc.position[2] = 0.1;
     assert_int_equal(knurl_scene_set_transform(scene, lift, parts.desc.position, parts.desc.rotation, 0.1), KNURL_OK);
     for (int tick = 0; tick < 50; tick++) {

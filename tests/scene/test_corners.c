@@ -24,17 +24,11 @@ static void add_strips(patch *p, const double at[3], const double u[3], const do
 }
 
 static knurl_scene *scene_with(surface_parts *parts, int count, uint32_t full_model) {
-    knurl_scene_desc desc;
-    knurl_scene *scene = NULL;
-    knurl_scene_desc_init(&desc, sizeof desc);
-    desc.full_model = full_model;
-    assert_int_equal(knurl_scene_create(&desc, &scene), KNURL_OK);
-    configure_plainly(scene, 0);
+    knurl_scene *scene = scene_of_model(full_model);
     for (int i = 0; i < count; i++) {
         (void)add_surface(scene, &parts[i]);
     }
-    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
-    return scene;
+    return commit_plainly(scene);
 }
 
 /* --- a floor (z = 0, x > 0) and a wall (x = 0, z > 0) --- */
@@ -190,7 +184,6 @@ TEST(a_groove_holds_whose_bottom_edge_is_split_on_one_side) {
 /* A steep groove that moves up and across under a HIP at rest: its bottom, at which both walls hold the proxy, moves
  * over the proxy's last position. */
 TEST(a_steep_groove_that_moves_keeps_the_hip_out) {
-    const double q[4] = {0.0, 0.0, 0.0, 1.0};
     for (int parts = 1; parts <= 3; parts++) {
         SCOPED_SHAPE s = groove(2.0, parts);
         surface_parts mesh = surface_shape(&s);
@@ -198,10 +191,8 @@ TEST(a_steep_groove_that_moves_keeps_the_hip_out) {
         (void)tick_at(scene, 0.0, 0.001, 0.001);
         for (int k = 1; k <= 60; k++) {
             const double up = 0.001 + 0.0005 * (k / 10.0);
-            const double position[3] = {k % 20 < 10 ? 0.0002 : -0.0002, 0.0, up};
             if (k % 10 == 0) {
-                assert_int_equal(knurl_scene_set_transform(scene, knurl_scene_get_surface(scene, 0), position, q, 0.01),
-                                 KNURL_OK);
+                glide_to(scene, k % 20 < 10 ? 0.0002 : -0.0002, 0.0, up, 0.01);
             }
             const knurl_tick_output out = tick_at(scene, 0.0, 0.001, 0.0);
             if (k > 20 && (out.contacts == 0 || !(out.force[2] > 0.0) || (out.flags & KNURL_TICK_SQUEEZED))) {

@@ -1,5 +1,6 @@
 /* A crease of two walls, however sharp: the same force as of one mesh. SPDX-License-Identifier: MIT */
 #include "base/vec3.h"
+#include "scene/ask.h"
 #include "scene/patch.h"
 
 #define K      800.0
@@ -22,12 +23,7 @@ static void add_wall(patch *p, double half, double side) {
 /* method: of ridges along the crease; negative: smooth. */
 static knurl_scene *crease(int cut, double angle, double stiffness_left, int method) {
     const double half = 0.5 * angle, tilt = 0.5 * (0.5 * acos(-1.0) - half);
-    knurl_scene_desc desc;
-    knurl_scene *scene = NULL;
-    knurl_scene_desc_init(&desc, sizeof desc);
-    desc.full_model = cut == TWO_FULL_MESHES ? 1 : 0;
-    assert_int_equal(knurl_scene_create(&desc, &scene), KNURL_OK);
-    configure_plainly(scene, 0);
+    knurl_scene *scene = scene_of_model(cut == TWO_FULL_MESHES);
     patch both = patch_new(4);
     for (int i = 0; i < 2; i++) {
         const double side = i ? -1.0 : 1.0;
@@ -59,8 +55,7 @@ static knurl_scene *crease(int cut, double angle, double stiffness_left, int met
         shape_free(&one.s);
     }
     shape_free(&both.s);
-    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
-    return scene;
+    return commit_plainly(scene);
 }
 
 /* A god-object at the crease holds by K times its distance, in its direction: from above, straight down, then aside and
@@ -172,9 +167,7 @@ static knurl_scene *floor_and_wall(void) {
     wall.desc.axis[1] = 1.0;
     (void)add_surface(scene, &ground);
     (void)add_surface(scene, &wall);
-    configure_plainly(scene, 0);
-    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
-    return scene;
+    return commit_plainly(scene);
 }
 
 /* From a place to another in steps of 2 um. Returns the largest change of the force in a step, N. */

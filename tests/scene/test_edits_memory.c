@@ -77,9 +77,7 @@ TEST(bytes_return_to_where_they_were) {
         assert_true(knurl_scene_get_bytes(scene) == before && books.bytes == before);
         assert_int_equal(books.blocks, blocks);
     }
-    knurl_scene_destroy(scene);
-    assert_int_equal(books.blocks, 0);
-    assert_true(books.bytes == 0);
+    end_with(scene, &books);
 }
 
 /* With ticks, and (a paused game) without any. */
@@ -97,8 +95,7 @@ TEST(edits_that_are_replaced_do_not_pile_up) {
             assert_true(knurl_scene_get_bytes(scene) == books.bytes);
             assert_true(books.bytes < before + 16384);
         }
-        knurl_scene_destroy(scene);
-        assert_int_equal(books.blocks, 0);
+        end_with(scene, &books);
     }
 }
 
@@ -121,8 +118,7 @@ TEST(hip_that_does_not_tick_holds_no_memory_back) {
     (void)tick_at(scene, 0.0, 0.0, -0.001);
     knurl_scene_collect(scene);
     assert_true(knurl_scene_get_bytes(scene) == before && books.bytes == before);
-    knurl_scene_destroy(scene);
-    assert_int_equal(books.blocks, 0);
+    end_with(scene, &books);
 }
 
 TEST(scene_destroyed_in_the_midst_of_edits_gives_everything_back) {
@@ -136,9 +132,7 @@ TEST(scene_destroyed_in_the_midst_of_edits_gives_everything_back) {
         assert_int_equal(set_height(scene, id, 0.001, 1.0), KNURL_OK);
     }
     assert_int_equal(knurl_scene_remove_surface(scene, id), KNURL_OK);
-    knurl_scene_destroy(scene);
-    assert_int_equal(books.blocks, 0);
-    assert_true(books.bytes == 0);
+    end_with(scene, &books);
 }
 
 /* One edit of each kind; returns its result. */
@@ -196,9 +190,7 @@ static int edit_without(int32_t refused, int kind, int crowd, shape *sheet) {
     assert_int_equal(knurl_scene_get_surface_count(scene), count + (kind == 2 || kind == 3) - (kind == 4));
     (void)tick_at(scene, 0.0, 0.0, 0.010);
     CHECK_CLOSE(tick_at(scene, 0.0, 0.0, -0.001).force[2], AFTER[kind], 1e-6); /* a sheet's floats */
-    knurl_scene_destroy(scene);
-    assert_int_equal(books.blocks, 0);
-    assert_true(books.bytes == 0);
+    end_with(scene, &books);
     return result != KNURL_OK;
 }
 
@@ -240,8 +232,7 @@ TEST(commit_that_gets_no_memory_can_be_made_again) {
         }
         (void)tick_at(scene, 0.2, 0.0, 0.010);
         CHECK_CLOSE(tick_at(scene, 0.2, 0.0, -0.001).force[2], K * 0.001, 1e-12);
-        knurl_scene_destroy(scene);
-        assert_int_equal(books.blocks, 0);
+        end_with(scene, &books);
         if (result == KNURL_OK) {
             return;
         }

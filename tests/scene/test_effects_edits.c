@@ -1,5 +1,6 @@
 /* Edits of effects: their continuity, refusals and memory. SPDX-License-Identifier: MIT */
 #include "effects.h"
+#include "scene/ask.h"
 #include "support/ledger.h"
 
 TEST(effects_stay_when_their_hip_is_configured_anew_and_end_with_a_count_of_0) {
@@ -94,8 +95,7 @@ TEST(calls_that_are_wrong_are_refused) {
 TEST(replaced_effects_are_freed_and_every_byte_is_counted) {
     ledger books = {0, 0, 0, 0};
     knurl_scene *scene = scene_with(&books);
-    configure_plainly(scene, 0);
-    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
+    (void)commit_plainly(scene);
     const uint64_t before = books.bytes;
     const knurl_effect effect = effect_of(KNURL_EFFECT_SPRING);
     for (int i = 0; i < 100; i++) {
@@ -113,8 +113,7 @@ TEST(replaced_effects_are_freed_and_every_byte_is_counted) {
 TEST(without_memory_the_old_effects_stay) {
     ledger books = {0, 0, 0, 0};
     knurl_scene *scene = scene_with(&books);
-    configure_plainly(scene, 0);
-    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
+    (void)commit_plainly(scene);
     knurl_effect effect = effect_of(KNURL_EFFECT_FORCE);
     set(scene, &effect, 1, 0.0);
     books.refused = books.requests + 1;

@@ -1,5 +1,6 @@
 /* Friction, an elastic-Coulomb element: a spring of the material's K from an anchor on the surface to the proxy, which
  * gives way at mu K times the depth. Expected values from the element's equations. SPDX-License-Identifier: MIT */
+#include "scene/ask.h"
 #include "support/poses.h"
 
 #define K     400.0  /* N/m, the default */
@@ -22,9 +23,14 @@ static knurl_scene *pressed(surface_parts *parts, double depth) {
     return scene;
 }
 
-TEST(pressed_straight_down_nothing_pulls_sideways) {
+/* The same of most tests. */
+static knurl_scene *pressed_plane(void) {
     surface_parts parts = rough_plane(MU);
-    SCOPED_SCENE *scene = pressed(&parts, DEPTH);
+    return pressed(&parts, DEPTH);
+}
+
+TEST(pressed_straight_down_nothing_pulls_sideways) {
+    SCOPED_SCENE *scene = pressed_plane();
     for (int k = 0; k < 50; k++) {
         CHECK_VECTOR(tick_at(scene, 0.0, 0.0, -1e-4 * k).force, 0.0, 0.0, K * 1e-4 * k, TOL);
     }
@@ -32,8 +38,7 @@ TEST(pressed_straight_down_nothing_pulls_sideways) {
 
 TEST(sticks_with_the_stiffness_and_slips_at_mu_times_the_load) {
     for (int way = 0; way < 8; way++) {
-        surface_parts parts = rough_plane(MU);
-        SCOPED_SCENE *scene = pressed(&parts, DEPTH);
+        SCOPED_SCENE *scene = pressed_plane();
         const double cx = cos(0.7 * way);
         const double cy = sin(0.7 * way);
         for (int k = 0; k <= 200; k++) {
@@ -162,8 +167,7 @@ TEST(friction_on_a_sphere_opposes_the_way_it_slides) {
  * over whole turns from one turning point to the next, in steps that meet every corner of the loop. */
 static void check_loop(double amplitude) {
     enum { TURN = 400, FROM = TURN + TURN / 4, TURNS = 3 };
-    surface_parts parts = rough_plane(MU);
-    SCOPED_SCENE *scene = pressed(&parts, DEPTH);
+    SCOPED_SCENE *scene = pressed_plane();
     const double excess = fmax(0.0, amplitude - MU * DEPTH);
     double last_x = 0.0;
     double last_force = 0.0;
@@ -215,8 +219,7 @@ TEST(no_way_along_the_surface_yields_energy) {
 /* --- loading and unloading --- */
 
 TEST(letting_up_lets_it_slip) {
-    surface_parts parts = rough_plane(MU);
-    SCOPED_SCENE *scene = pressed(&parts, DEPTH);
+    SCOPED_SCENE *scene = pressed_plane();
     (void)tick_at(scene, 0.0004, 0.0, -DEPTH); /* sticks: 0.16 N of 0.2 N */
     knurl_tick_output out = tick_at(scene, 0.0004, 0.0, -0.5 * DEPTH);
     CHECK_VECTOR(out.force, -MU * K * 0.5 * DEPTH, 0.0, K * 0.5 * DEPTH, TOL);
@@ -225,8 +228,7 @@ TEST(letting_up_lets_it_slip) {
 }
 
 TEST(lifted_off_it_is_forgotten) {
-    surface_parts parts = rough_plane(MU);
-    SCOPED_SCENE *scene = pressed(&parts, DEPTH);
+    SCOPED_SCENE *scene = pressed_plane();
     (void)tick_at(scene, 0.0004, 0.0, -DEPTH);
     CHECK_VECTOR(tick_at(scene, 0.0004, 0.0, 0.001).force, 0.0, 0.0, 0.0, 0.0L);
     CHECK_VECTOR(tick_at(scene, 0.0004, 0.0, -DEPTH).force, 0.0, 0.0, K * DEPTH, TOL); /* straight down again */
@@ -322,28 +324,21 @@ TEST(friction_taken_away_in_contact_is_gone_at_the_next_tick) {
 /* --- surfaces that move --- */
 
 TEST(surface_that_slides_drags_a_resting_hip) {
-    surface_parts parts = rough_plane(MU);
-    SCOPED_SCENE *scene = pressed(&parts, DEPTH);
-    const double end[3] = {0.01, 0.0, 0.0};
-    const double rotation[4] = {0.0, 0.0, 0.0, 1.0};
-    const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
-    assert_int_equal(knurl_scene_set_transform(scene, id, end, rotation, 0.2), KNURL_OK); /* 0.05 mm a tick */
+    SCOPED_SCENE *scene = pressed_plane();
+    glide_to(scene, 0.01, 0.0, 0.0, 0.2); /* 0.05 mm a tick */
     for (int k = 1; k <= 250; k++) {
         const double gone = fmin(5e-5 * k, 0.01);
         CHECK_VECTOR(tick_at(scene, 0.0, 0.0, -DEPTH).force, K * fmin(gone, MU * DEPTH), 0.0, K * DEPTH, TOL);
     }
-    assert_int_equal(knurl_scene_set_transform(scene, id, (const double[3]){0.0, 0.0, 0.0}, rotation, 0.2), KNURL_OK);
+    glide_to(scene, 0.0, 0.0, 0.0, 0.2);
     for (int k = 1; k <= 30; k++) { /* and back: first it relaxes, then it drags in the other direction */
         CHECK_CLOSE(tick_at(scene, 0.0, 0.0, -DEPTH).force[0], K * fmax(MU * DEPTH - 5e-5 * k, -MU * DEPTH), TOL);
     }
 }
 
 TEST(a_surface_that_moves_with_the_hip_has_no_friction) {
-    surface_parts parts = rough_plane(MU);
-    SCOPED_SCENE *scene = pressed(&parts, DEPTH);
-    const double end[3] = {0.05, 0.02, 0.01};
-    const double rotation[4] = {0.0, 0.0, 0.0, 1.0};
-    assert_int_equal(knurl_scene_set_transform(scene, knurl_scene_get_surface(scene, 0), end, rotation, 0.1), KNURL_OK);
+    SCOPED_SCENE *scene = pressed_plane();
+    glide_to(scene, 0.05, 0.02, 0.01, 0.1);
     for (int k = 1; k <= 100; k++) {
         const knurl_tick_output out = tick_at(scene, 0.0005 * k, 0.0002 * k, -DEPTH + 0.0001 * k);
         CHECK_VECTOR(out.force, 0.0, 0.0, K * DEPTH, 1e-10L);
@@ -370,11 +365,8 @@ TEST(surface_that_turns_takes_the_anchor_along) {
 }
 
 TEST(jump_of_the_surface_starts_friction_anew) {
-    surface_parts parts = rough_plane(MU);
-    SCOPED_SCENE *scene = pressed(&parts, DEPTH);
-    const double end[3] = {0.1, 0.0, 0.0};
-    const double rotation[4] = {0.0, 0.0, 0.0, 1.0};
+    SCOPED_SCENE *scene = pressed_plane();
     (void)tick_at(scene, 0.0003, 0.0, -DEPTH);
-    assert_int_equal(knurl_scene_set_transform(scene, knurl_scene_get_surface(scene, 0), end, rotation, 0.0), KNURL_OK);
+    glide_to(scene, 0.1, 0.0, 0.0, 0.0);
     CHECK_VECTOR(tick_at(scene, 0.0003, 0.0, -DEPTH).force, 0.0, 0.0, K * DEPTH, TOL);
 }

@@ -3,11 +3,9 @@
 #include "moving.h"
 
 TEST(surface_rises_evenly_and_stays) {
-    surface_parts parts = wide_plane();
     knurl_surface_id id;
-    SCOPED_SCENE *scene = stood_on(&parts, &id);
-    const pose top = at_height(0.0, 0.0, 0.005);
-    move_to(scene, id, &top, 0.05);
+    SCOPED_SCENE *scene = stood_on_plane(&id);
+    raise_to(scene, id, 0.005, 0.05);
     for (int k = 1; k <= 80; k++) {
         const knurl_tick_output out = stand_at(scene, 0.0, 0.0, -0.001);
         const double depth = 0.001 + 0.005 * (k < 50 ? k : 50) / 50.0;
@@ -23,16 +21,14 @@ TEST(damping_takes_the_relative_velocity_along_the_normal) {
     parts.material.damping = 5.0;
     knurl_surface_id id;
     SCOPED_SCENE *scene = stood_on(&parts, &id);
-    const pose top = at_height(0.0, 0.0, 0.005);
-    move_to(scene, id, &top, 0.05);
+    raise_to(scene, id, 0.005, 0.05);
     for (int k = 1; k <= 60; k++) {
         const knurl_tick_output out = stand_at(scene, 0.0, 0.0, -0.001);
         if (k != 50) { /* at the very end it may still be reported as moving */
             CHECK_CLOSE(out.force[2], K * out.depth + (k < 50 ? 5.0 * 0.1 : 0.0), TOL);
         }
     }
-    const pose down = at_height(0.0, 0.0, 0.0);
-    move_to(scene, id, &down, 0.005); /* 1 m/s away: no pull */
+    raise_to(scene, id, 0.0, 0.005); /* 1 m/s away: no pull */
     for (int k = 1; k < 5; k++) {
         CHECK_VECTOR(stand_at(scene, 0.0, 0.0, -0.001).force, 0.0, 0.0, 0.0, 0.0L);
     }
@@ -200,7 +196,6 @@ TEST(place_and_turn_on_the_way_have_their_closed_forms) {
     }
 }
 
-/* At its target it is exactly like a surface placed there from the start: the same numbers, bit for bit. */
 /* About any axis, exactly or nearly half a turn, in whole or in half: the normal stays in the plane of the turn. */
 TEST(half_a_turn_goes_about_its_own_axis) {
     for (int axis = 0; axis < 3; axis++) {
@@ -210,7 +205,7 @@ TEST(half_a_turn_goes_about_its_own_axis) {
         const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
         turned.quaternion[3] = 0.0;
         turned.quaternion[axis] = 1.0;
-        assert_int_equal(knurl_scene_set_transform(scene, id, turned.position, turned.quaternion, 0.1), KNURL_OK);
+        move_to(scene, id, &turned, 0.1);
         for (int tick = 1; tick <= 100; tick++) {
             (void)stand_at(scene, 0.0, 0.0, 2.0);
             const plane_frame now = frame_of(scene, id);
@@ -221,6 +216,7 @@ TEST(half_a_turn_goes_about_its_own_axis) {
     }
 }
 
+/* At its target it is exactly like a surface placed there from the start: the same numbers, bit for bit. */
 TEST(arrival_is_exactly_at_the_target) {
     uint64_t seed = 31;
     for (int run = 0; run < 20; run++) {
@@ -250,16 +246,13 @@ TEST(arrival_is_exactly_at_the_target) {
 }
 
 TEST(new_target_on_the_way_goes_on_from_where_it_is) {
-    surface_parts parts = wide_plane();
     knurl_surface_id id;
-    SCOPED_SCENE *scene = stood_on(&parts, &id);
-    const pose up = at_height(0.0, 0.0, 0.005);
-    const pose back = at_height(0.0, 0.0, 0.001);
-    move_to(scene, id, &up, 0.05);
+    SCOPED_SCENE *scene = stood_on_plane(&id);
+    raise_to(scene, id, 0.005, 0.05);
     for (int k = 1; k <= 20; k++) { /* 2 mm up */
         CHECK_CLOSE(stand_at(scene, 0.0, 0.0, -0.001).depth, 0.001 + 0.0001 * k, 1e-12L);
     }
-    move_to(scene, id, &back, 0.02);
+    raise_to(scene, id, 0.001, 0.02);
     for (int k = 1; k <= 30; k++) { /* 1 mm down again in 20 ticks */
         CHECK_CLOSE(stand_at(scene, 0.0, 0.0, -0.001).depth, 0.003 - 0.00005 * (k < 20 ? k : 20), 1e-12L);
     }
@@ -268,9 +261,8 @@ TEST(new_target_on_the_way_goes_on_from_where_it_is) {
 /* Like a game: a new target every frame, for any frame length, before or after the last one was reached. */
 TEST(targets_frame_by_frame_make_no_jumps) {
     uint64_t seed = 5;
-    surface_parts parts = wide_plane();
     knurl_surface_id id;
-    SCOPED_SCENE *scene = stood_on(&parts, &id);
+    SCOPED_SCENE *scene = stood_on_plane(&id);
     double z = 0.0;
     double last = 0.001;
     double fastest = 0.0;
@@ -294,9 +286,8 @@ TEST(targets_frame_by_frame_make_no_jumps) {
 /* A new turn half way through another: the normal continues from there. */
 TEST(new_turn_on_the_way_goes_on_from_where_it_is) {
     static const double y[3] = {0.0, 1.0, 0.0};
-    surface_parts parts = wide_plane();
     knurl_surface_id id;
-    SCOPED_SCENE *scene = stood_on(&parts, &id);
+    SCOPED_SCENE *scene = stood_on_plane(&id);
     pose end = HOME;
     turn_about(y, 0.4, end.quaternion);
     move_to(scene, id, &end, 0.1);
@@ -317,9 +308,8 @@ TEST(before_the_commit_a_way_is_made_at_once) {
     surface_parts parts = wide_plane();
     SCOPED_SCENE *scene = empty_scene(1);
     const knurl_surface_id id = add_surface(scene, &parts);
-    const pose there = at_height(0.0, 0.0, 0.003);
     configure_plainly(scene, 0);
-    move_to(scene, id, &there, 5.0);
+    raise_to(scene, id, 0.003, 5.0);
     assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
     const knurl_tick_output out = stand_at(scene, 0.0, 0.0, 0.001);
     CHECK_VECTOR(out.force, 0.0, 0.0, K * 0.002, TOL);

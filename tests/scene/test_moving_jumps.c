@@ -17,12 +17,11 @@ TEST(jump_passes_by_what_is_on_its_way) {
     for (size_t i = 0; i < COUNT_OF(ends); i++) {
         surface_parts parts = wide_plane();
         const pose low = at_height(0.0, 0.0, -0.02);
-        const pose high = at_height(0.0, 0.0, ends[i]);
         place(&parts, &low);
         SCOPED_SCENE *scene = scene_of(&parts);
         (void)stand_at(scene, 0.0, 0.0, 0.0);
         (void)stand_at(scene, 0.0, 0.0, 0.0);
-        move_to(scene, knurl_scene_get_surface(scene, 0), &high, 0.0);
+        raise_to(scene, knurl_scene_get_surface(scene, 0), ends[i], 0.0);
         feel_nothing(scene);
     }
 }
@@ -31,15 +30,13 @@ TEST(jump_passes_by_what_is_on_its_way) {
 TEST(jump_of_what_was_on_its_way_to_the_hip_passes_by) {
     surface_parts parts = wide_plane();
     const pose low = at_height(0.0, 0.0, -0.2);
-    const pose high = at_height(0.0, 0.0, 0.2);
-    const pose above = at_height(0.0, 0.0, 0.004);
     place(&parts, &low);
     SCOPED_SCENE *scene = scene_of(&parts);
     (void)stand_at(scene, 0.0, 0.0, 0.0);
-    move_to(scene, knurl_scene_get_surface(scene, 0), &high, 10.0);
+    raise_to(scene, knurl_scene_get_surface(scene, 0), 0.2, 10.0);
     (void)stand_at(scene, 0.0, 0.0, 0.0);
     (void)stand_at(scene, 0.0, 0.0, 0.0);
-    move_to(scene, knurl_scene_get_surface(scene, 0), &above, 0.0);
+    raise_to(scene, knurl_scene_get_surface(scene, 0), 0.004, 0.0);
     feel_nothing(scene);
 }
 
@@ -70,14 +67,11 @@ TEST(jump_of_what_is_touched_is_a_first_tick) {
 }
 
 TEST(jump_ends_a_way) {
-    surface_parts parts = wide_plane();
     knurl_surface_id id;
-    SCOPED_SCENE *scene = stood_on(&parts, &id);
-    const pose up = at_height(0.0, 0.0, 0.005);
-    const pose home = HOME;
-    move_to(scene, id, &up, 0.05);
+    SCOPED_SCENE *scene = stood_on_plane(&id);
+    raise_to(scene, id, 0.005, 0.05);
     (void)stand_at(scene, 0.0, 0.0, -0.001);
-    move_to(scene, id, &home, 0.0);
+    raise_to(scene, id, 0.0, 0.0);
     for (int k = 0; k < 60; k++) {
         CHECK_CLOSE(stand_at(scene, 0.0, 0.0, -0.001).depth, 0.001, 1e-15L);
     }
@@ -86,13 +80,10 @@ TEST(jump_ends_a_way) {
 /* --- time --- */
 
 TEST(a_move_waits_for_the_next_tick) {
-    surface_parts parts = wide_plane();
     knurl_surface_id id;
-    SCOPED_SCENE *scene = stood_on(&parts, &id);
-    const pose up = at_height(0.0, 0.0, 0.004);
-    const pose higher = at_height(0.0, 0.0, 0.008);
-    move_to(scene, id, &up, 0.01);
-    move_to(scene, id, &higher, 0.01); /* no tick in between: from its present position */
+    SCOPED_SCENE *scene = stood_on_plane(&id);
+    raise_to(scene, id, 0.004, 0.01);
+    raise_to(scene, id, 0.008, 0.01); /* no tick in between: from its present position */
     for (int k = 1; k <= 10; k++) {
         CHECK_CLOSE(stand_at(scene, 0.0, 0.0, -0.001).depth, 0.001 + 0.0008 * k, 1e-12L);
     }
@@ -104,7 +95,6 @@ TEST(hips_of_different_rates_see_the_same_way_in_seconds) {
     surface_parts parts = wide_plane();
     SCOPED_SCENE *scene = empty_scene(2);
     knurl_hip_desc hip = hip_in_scene_axes();
-    const pose up = at_height(0.0, 0.0, 0.004);
     const knurl_tick_input input = {{0.0, 0.0, -0.001}, {0.0, 0.0, 0.0}, 1, 0, 0.0, 0, {0}};
     knurl_tick_output out[2];
     hip.max_force = 100.0;
@@ -120,7 +110,7 @@ TEST(hips_of_different_rates_see_the_same_way_in_seconds) {
             assert_int_equal(knurl_scene_tick(scene, 0, &input, &out[0]), KNURL_OK);
         }
         if (k == 79) {
-            move_to(scene, id, &up, 0.08);
+            raise_to(scene, id, 0.004, 0.08);
         }
         for (int i = 0; i < 2 && k > 3; i++) {
             const double since = (k - 79) / 4000.0;
@@ -136,13 +126,12 @@ TEST(hips_of_different_rates_see_the_same_way_in_seconds) {
 TEST(way_at_4_khz_takes_its_seconds) {
     surface_parts parts = wide_plane();
     knurl_hip_desc hip = hip_in_scene_axes();
-    const pose up = at_height(0.0, 0.0, 0.004);
     hip.max_force = 100.0;
     hip.update_rate_hz = 4000.0;
     SCOPED_SCENE *scene = scene_with_hip(&parts, &hip);
     const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
     (void)stand_at(scene, 0.0, 0.0, -0.001);
-    move_to(scene, id, &up, 0.02);
+    raise_to(scene, id, 0.004, 0.02);
     for (int k = 1; k <= 100; k++) {
         CHECK_CLOSE(stand_at(scene, 0.0, 0.0, -0.001).depth, 0.001 + 0.004 * (k < 80 ? k : 80) / 80.0, 1e-12L);
     }

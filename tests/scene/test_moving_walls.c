@@ -1,5 +1,6 @@
 /* Walls that come to the HIP: nothing tunnels, and a surface that moves feels as a HIP that moves over it does.
  * SPDX-License-Identifier: MIT */
+#include "scene/ask.h"
 #include "support/poses.h"
 
 #define K    400.0 /* N/m, the default */
@@ -32,15 +33,9 @@ static surface_parts wall(int kind, shape *s) {
 }
 
 static knurl_scene *wall_scene(surface_parts *parts, uint32_t full_model) {
-    knurl_scene_desc desc;
-    knurl_scene *scene = NULL;
-    knurl_scene_desc_init(&desc, sizeof desc);
-    desc.full_model = full_model;
-    assert_int_equal(knurl_scene_create(&desc, &scene), KNURL_OK);
-    configure_plainly(scene, 0);
+    knurl_scene *scene = scene_of_model(full_model);
     (void)add_surface(scene, parts);
-    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
-    return scene;
+    return commit_plainly(scene);
 }
 
 /* m in front of a pose's xy plane. */
@@ -141,7 +136,7 @@ static void swing(int kind, uint32_t full_model, uint64_t *seed) {
 /* A box that comes along each axis to a HIP that has long stood still there. */
 TEST(a_surface_that_reaches_a_resting_hip_from_any_side_is_felt) {
     for (int way = 0; way < 6; way++) {
-        const double sign = way % 2 ? -1.0 : 1.0, half[3] = {0.05, 0.05, 0.05}, q[4] = {0.0, 0.0, 0.0, 1.0};
+        const double sign = way % 2 ? -1.0 : 1.0, half[3] = {0.05, 0.05, 0.05};
         SCOPED_SHAPE box = shape_box(half, 0);
         surface_parts parts = surface_mesh(&box);
         parts.desc.axis[0] = 1.0;
@@ -152,7 +147,7 @@ TEST(a_surface_that_reaches_a_resting_hip_from_any_side_is_felt) {
         for (int tick = 0; tick < 20; tick++) {
             assert_true(tick_at(scene, at[0], at[1], at[2]).surface == 0);
         }
-        assert_int_equal(knurl_scene_set_transform(scene, knurl_scene_get_surface(scene, 0), target, q, 0.5), KNURL_OK);
+        glide_to(scene, target[0], target[1], target[2], 0.5);
         for (int tick = 0; tick < 499; tick++) {
             (void)tick_at(scene, at[0], at[1], at[2]);
         }

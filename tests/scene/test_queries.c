@@ -1,6 +1,21 @@
 /* A game's queries: a surface's pose and existence, the closest point of all surfaces, all contacts of a HIP.
  * SPDX-License-Identifier: MIT */
+#include "scene/ask.h"
 #include "support/poses.h"
+
+static knurl_surface_point closest_to(const knurl_scene *scene, const double p[3], double radius) {
+    knurl_surface_point found;
+    knurl_surface_point_init(&found, sizeof found);
+    assert_int_equal(knurl_scene_find_closest(scene, p, radius, &found), KNURL_OK);
+    return found;
+}
+
+static knurl_surface_point cast(const knurl_scene *scene, const double from[3], const double to[3]) {
+    knurl_surface_point found;
+    knurl_surface_point_init(&found, sizeof found);
+    assert_int_equal(knurl_scene_cast_ray(scene, from, to, &found), KNURL_OK);
+    return found;
+}
 
 static double flat(double x, double y) {
     (void)x;
@@ -27,7 +42,7 @@ TEST(a_moving_surface_is_described_on_its_way) {
     pose end = {{0.1, -0.2, 0.0}, {0.0}}, middle = {{0.05, -0.1, 0.0}, {0.0}};
     turn_about(z, 1.0, end.quaternion);
     turn_about(z, 0.5, middle.quaternion);
-    assert_int_equal(knurl_scene_set_transform(scene, id, end.position, end.quaternion, 0.1), KNURL_OK);
+    move_to(scene, id, &end, 0.1);
     for (int tick = 0; tick < 50; tick++) {
         (void)tick_at(scene, 0.0, 0.0, 0.5);
     }
@@ -63,9 +78,26 @@ static double clamp_to_box(const double p[3], const double half[3], double close
     return sqrt(square);
 }
 
-/* A plane, a box of triangles, and a flat mesh, each at a random pose. */
 /* Half edges of a plane, a box and a sheet. */
 static const double half_edges[3][3] = {{0.05, 0.05, 0.0}, {0.03, 0.02, 0.04}, {0.02, 0.03, 0.0}};
+
+/* Three surfaces at random poses. */
+typedef struct three {
+    knurl_scene *scene;
+    knurl_surface_id ids[3];
+    pose poses[3];
+} three;
+
+static three place_three(surface_parts parts[3], uint64_t *seed) {
+    three t = {.scene = empty_scene(1)};
+    for (int i = 0; i < 3; i++) {
+        t.poses[i] = random_pose(seed);
+        place(&parts[i], &t.poses[i]);
+        parts[i].desc.axis[0] = 1.0;
+        t.ids[i] = add_surface(t.scene, &parts[i]);
+    }
+    return t;
+}
 
 typedef struct nearest {
     double distance, point[3];
@@ -100,34 +132,23 @@ TEST(the_closest_point_of_three_surfaces_is_the_closest_of_each_ones) {
     SCOPED_SHAPE sheet = shape_sheet(1, 1, half_edges[2], flat);
     surface_parts parts[3] = {surface_plane(), surface_mesh(&box), surface_mesh(&sheet)};
     for (int round = 0; round < 40; round++) {
-        SCOPED_SCENE *scene = empty_scene(1);
-        knurl_surface_id ids[3];
-        pose poses[3];
-        for (int i = 0; i < 3; i++) {
-            poses[i] = random_pose(&seed);
-            memcpy(parts[i].desc.position, poses[i].position, sizeof poses[i].position);
-            memcpy(parts[i].desc.rotation, poses[i].quaternion, sizeof poses[i].quaternion);
-            parts[i].desc.axis[0] = 1.0;
-            ids[i] = add_surface(scene, &parts[i]);
-        }
+        const three t = place_three(parts, &seed);
         for (int k = 0; k < 50; k++) {
             const double p[3] = {random_between(&seed, -0.6, 0.6), random_between(&seed, -0.6, 0.6),
                                  random_between(&seed, -0.6, 0.6)};
-            const nearest n = find_nearest(poses, p);
-            knurl_surface_point found;
-            knurl_surface_point_init(&found, sizeof found);
-            assert_int_equal(knurl_scene_find_closest(scene, p, 10.0, &found), KNURL_OK);
+            const nearest n = find_nearest(t.poses, p);
+            knurl_surface_point found = closest_to(t.scene, p, 10.0);
             if (n.is_in_box) {
                 continue;
             }
-            assert_true(found.surface == ids[n.surface]);
+            assert_true(found.surface == t.ids[n.surface]);
             CHECK_CLOSE(found.distance, n.distance, 1e-7); /* meshes are of float32 */
             CHECK_VECTOR(found.position, n.point[0], n.point[1], n.point[2], 1e-7);
-            assert_int_equal(knurl_scene_find_closest(scene, p, 0.999 * n.distance, &found), KNURL_OK);
+            found = closest_to(t.scene, p, 0.999 * n.distance);
             assert_true(found.surface == 0 && found.distance == 0.0 && found.position[0] == 0.0);
-            assert_int_equal(knurl_scene_find_closest(scene, p, 1.001 * n.distance, &found), KNURL_OK);
-            assert_true(found.surface == ids[n.surface]);
+            assert_true(closest_to(t.scene, p, 1.001 * n.distance).surface == t.ids[n.surface]);
         }
+        knurl_scene_destroy(t.scene);
     }
 }
 
@@ -137,13 +158,11 @@ TEST(the_normal_at_the_closest_point_is_the_fronts) {
     SCOPED_SHAPE box = shape_box(half, 0);
     surface_parts parts[2] = {surface_plane(), surface_mesh(&box)};
     for (int i = 0; i < 2; i++) {
-        knurl_surface_point found;
-        knurl_surface_point_init(&found, sizeof found);
         parts[i].desc.axis[0] = 1.0;
         SCOPED_SCENE *scene = scene_of(&parts[i]);
-        assert_int_equal(knurl_scene_find_closest(scene, above, 1.0, &found), KNURL_OK);
+        knurl_surface_point found = closest_to(scene, above, 1.0);
         CHECK_VECTOR(found.normal, 0.0, 0.0, 1.0, 1e-9);
-        assert_int_equal(knurl_scene_find_closest(scene, below, 1.0, &found), KNURL_OK);
+        found = closest_to(scene, below, 1.0);
         CHECK_VECTOR(found.normal, 0.0, 0.0, i == 0 ? 1.0 : -1.0, 1e-9); /* a plane has one front */
     }
 }
@@ -163,7 +182,7 @@ TEST(a_closest_point_is_asked_for_with_numbers_in_range) {
     assert_string_equal(knurl_error_message(),
                         "position: expected numbers from -1e+09 to 1e+09 m, found [0, 0, 1e+300]");
     assert_int_equal(knurl_scene_find_closest(scene, here, (double)INFINITY, &found), KNURL_OK);
-    assert_int_equal(knurl_scene_find_closest(scene, far, (double)INFINITY, &found), KNURL_OK);
+    found = closest_to(scene, far, (double)INFINITY);
     assert_true(found.surface != 0);
     CHECK_CLOSE(found.distance / 1e9, 1.0, 1e-12);
 }
@@ -181,27 +200,6 @@ static double enter_box(const double p[3], const double way[3], const double hal
     return begin > end || begin <= 0.0 || begin >= 1.0 ? 2.0 : begin;
 }
 
-/* Three surfaces at random poses, and the ray in their boxes' axes. */
-typedef struct three {
-    knurl_scene *scene;
-    knurl_surface_id ids[3];
-    pose poses[3];
-} three;
-
-static const double THREE_HALVES[3][3] = {{0.05, 0.05, 0.0}, {0.03, 0.02, 0.04}, {0.02, 0.03, 0.0}};
-
-static three place_three(surface_parts parts[3], uint64_t *seed) {
-    three t = {.scene = empty_scene(1)};
-    for (int i = 0; i < 3; i++) {
-        t.poses[i] = random_pose(seed);
-        memcpy(parts[i].desc.position, t.poses[i].position, sizeof t.poses[i].position);
-        memcpy(parts[i].desc.rotation, t.poses[i].quaternion, sizeof t.poses[i].quaternion);
-        parts[i].desc.axis[0] = 1.0;
-        t.ids[i] = add_surface(t.scene, &parts[i]);
-    }
-    return t;
-}
-
 /* The first surface that a ray hits, or -1; the share of the ray, and 1 if on its front. The box of a plane
  * has no height: its slabs meet at z = 0. The first surface is single-sided, and passed from behind; the last is not.
  */
@@ -217,7 +215,7 @@ static int find_first(const three *t, const double from[3], const double way[3],
         }
         turn(back, off, own);
         turn(back, way, own_way);
-        const double entered = i == 0 && own[2] < 0.0 ? 2.0 : enter_box(own, own_way, THREE_HALVES[i]);
+        const double entered = i == 0 && own[2] < 0.0 ? 2.0 : enter_box(own, own_way, half_edges[i]);
         if (entered < *share) {
             *share = entered;
             *front = i != 2 || own[2] > 0.0;
@@ -236,9 +234,7 @@ static int check_ray(const three *t, const double from[3], const double to[3]) {
         length += way[i] * way[i];
     }
     const int best = find_first(t, from, way, &share, &front);
-    knurl_surface_point found;
-    knurl_surface_point_init(&found, sizeof found);
-    assert_int_equal(knurl_scene_cast_ray(t->scene, from, to, &found), KNURL_OK);
+    const knurl_surface_point found = cast(t->scene, from, to);
     if (best < 0) {
         assert_true(found.surface == 0 && found.distance == 0.0 && found.normal[2] == 0.0);
         return best;
@@ -256,8 +252,8 @@ static int check_ray(const three *t, const double from[3], const double to[3]) {
 TEST(a_ray_hits_the_first_of_three_surfaces) {
     uint64_t seed = 9;
     int hits[4] = {0};
-    SCOPED_SHAPE box = shape_box(THREE_HALVES[1], 0);
-    SCOPED_SHAPE sheet = shape_sheet(1, 1, THREE_HALVES[2], flat);
+    SCOPED_SHAPE box = shape_box(half_edges[1], 0);
+    SCOPED_SHAPE sheet = shape_sheet(1, 1, half_edges[2], flat);
     surface_parts parts[3] = {surface_plane(), surface_mesh(&box), surface_mesh(&sheet)};
     parts[2].desc.double_sided = 1;
     for (int round = 0; round < 40; round++) {
@@ -276,26 +272,21 @@ TEST(a_ray_hits_the_first_of_three_surfaces) {
 }
 
 TEST(a_ray_ends_where_it_is_told_to_and_meets_a_surface_where_it_is_now) {
-    static const double unturned[4] = {0.0, 0.0, 0.0, 1.0}, above[3] = {0.0, 0.0, 0.3}, on[3] = {0.0, 0.0, 0.0};
-    static const double below[3] = {0.0, 0.0, -0.01}, raised[3] = {0.0, 0.0, 0.1};
+    static const double above[3] = {0.0, 0.0, 0.3}, on[3] = {0.0, 0.0, 0.0}, below[3] = {0.0, 0.0, -0.01};
     surface_parts parts = surface_plane();
     SCOPED_SCENE *scene = scene_of(&parts);
     const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
-    knurl_surface_point found;
-    knurl_surface_point_init(&found, sizeof found);
-    assert_int_equal(knurl_scene_cast_ray(scene, above, on, &found), KNURL_OK);
-    assert_true(found.surface == 0);
-    assert_int_equal(knurl_scene_cast_ray(scene, above, below, &found), KNURL_OK);
+    assert_true(cast(scene, above, on).surface == 0);
+    knurl_surface_point found = cast(scene, above, below);
     assert_true(found.surface == id);
     CHECK_CLOSE(found.distance, 0.3, 1e-15);
-    assert_int_equal(knurl_scene_set_transform(scene, id, raised, unturned, 0.1), KNURL_OK);
+    glide_to(scene, 0.0, 0.0, 0.1, 0.1);
     for (int tick = 0; tick < 50; tick++) {
         (void)tick_at(scene, 0.0, 0.0, 0.5);
     }
-    assert_int_equal(knurl_scene_cast_ray(scene, above, below, &found), KNURL_OK);
-    CHECK_CLOSE(found.distance, 0.25, 1e-12);
+    CHECK_CLOSE(cast(scene, above, below).distance, 0.25, 1e-12);
     assert_int_equal(knurl_scene_remove_surface(scene, id), KNURL_OK);
-    assert_int_equal(knurl_scene_cast_ray(scene, above, below, &found), KNURL_OK);
+    found = cast(scene, above, below);
     assert_true(found.surface == 0 && found.distance == 0.0);
 }
 
@@ -303,13 +294,10 @@ TEST(a_point_exactly_at_the_radius_is_found) {
     static const double above[3] = {0.0, 0.0, 0.25};
     surface_parts parts = surface_plane();
     SCOPED_SCENE *scene = scene_of(&parts);
-    knurl_surface_point found;
-    knurl_surface_point_init(&found, sizeof found);
-    assert_int_equal(knurl_scene_find_closest(scene, above, 0.25, &found), KNURL_OK);
+    const knurl_surface_point found = closest_to(scene, above, 0.25);
     assert_true(found.surface == knurl_scene_get_surface(scene, 0));
     CHECK_SAME(found.distance, 0.25);
-    assert_int_equal(knurl_scene_find_closest(scene, above, 0.2499, &found), KNURL_OK);
-    assert_true(found.surface == 0);
+    assert_true(closest_to(scene, above, 0.2499).surface == 0);
 }
 
 TEST(a_ray_is_cast_with_numbers_in_range) {
@@ -321,8 +309,7 @@ TEST(a_ray_is_cast_with_numbers_in_range) {
     CHECK_REFUSED(knurl_scene_cast_ray(scene, nowhere, here, &found), KNURL_ERROR_ARGUMENT, found);
     CHECK_REFUSED(knurl_scene_cast_ray(scene, here, beyond, &found), KNURL_ERROR_ARGUMENT, found);
     assert_string_equal(knurl_error_message(), "to: expected numbers from -1e+09 to 1e+09 m, found [0, 0, -1e+31]");
-    assert_int_equal(knurl_scene_cast_ray(scene, here, here, &found), KNURL_OK);
-    assert_true(found.surface == 0);
+    assert_true(cast(scene, here, here).surface == 0);
 }
 
 /* --- contacts --- */
@@ -334,9 +321,7 @@ static knurl_scene *floor_and_wall(knurl_surface_id ids[2]) {
     ids[0] = add_surface(scene, &parts);
     turn_about((const double[3]){0.0, 1.0, 0.0}, 2.0 * atan(1.0), parts.desc.rotation);
     ids[1] = add_surface(scene, &parts);
-    configure_plainly(scene, 0);
-    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
-    return scene;
+    return commit_plainly(scene);
 }
 
 TEST(every_contact_of_a_tick_is_reported) {

@@ -1,7 +1,7 @@
 /* Functions for any thread, against concurrent changes. ThreadSanitizer checks the accesses themselves; without it, no
  * reader may see a mix of two states. SPDX-License-Identifier: MIT */
 #include "device/core/home.h"
-#include "support/scenes.h"
+#include "scene/ask.h"
 
 #include <knurl/knurl.h>
 
@@ -155,8 +155,7 @@ static void replace_effects(void *user) {
 
 TEST(a_tick_sees_all_effects_of_an_edit_or_none) {
     SCOPED_SCENE *scene = empty_scene(1);
-    configure_plainly(scene, 0);
-    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
+    (void)commit_plainly(scene);
     torn = 0;
     together(tick_effects, replace_effects, scene);
     assert_true(torn == 0);

@@ -38,9 +38,7 @@ TEST(removing_gives_the_bytes_back) {
         assert_true(knurl_scene_get_bytes(scene) == before);
         assert_true(books.bytes == before);
     }
-    knurl_scene_destroy(scene);
-    assert_int_equal(books.blocks, 0);
-    assert_true(books.bytes == 0);
+    end_with(scene, &books);
 }
 
 TEST(refused_surfaces_leave_no_bytes) {
@@ -56,8 +54,7 @@ TEST(refused_surfaces_leave_no_bytes) {
     knurl_surface_id id = 77;
     CHECK_REFUSED(knurl_scene_add_surface(scene, surface_ready(&bad), &id), KNURL_ERROR_ARGUMENT, id);
     assert_true(books.bytes == before && knurl_scene_get_bytes(scene) == before);
-    knurl_scene_destroy(scene);
-    assert_int_equal(books.blocks, 0);
+    end_with(scene, &books);
 }
 
 /* Adds with one request refused; the scene is as it was, and the next attempt succeeds. */
@@ -86,9 +83,7 @@ static int add_without(int32_t refused, surface_parts *parts, int is_committed) 
     }
     assert_true(knurl_scene_get_surface(scene, 0) == first);
     assert_true(knurl_scene_get_surface(scene, 4) == id);
-    knurl_scene_destroy(scene);
-    assert_int_equal(books.blocks, 0);
-    assert_true(books.bytes == 0);
+    end_with(scene, &books);
     return result != KNURL_OK;
 }
 

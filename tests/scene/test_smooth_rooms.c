@@ -198,8 +198,7 @@ static void furnish(room *r, uint64_t *seed, int as_one, int is_smooth) {
         assert_int_equal(info.bad_normals, 0);
         r->bulge = fmax(r->bulge, info.bulge);
     }
-    configure_plainly(r->scene, 0);
-    assert_int_equal(knurl_scene_commit(r->scene), KNURL_OK);
+    (void)commit_plainly(r->scene);
 }
 
 /* m: a ring's mesh is this far off the ring. */

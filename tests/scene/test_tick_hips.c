@@ -190,8 +190,7 @@ TEST(forces_of_several_surfaces_add_and_the_deepest_is_reported) {
     parts.desc.normal[1] = -1.0;
     parts.material.stiffness = 100.0;
     const knurl_surface_id wall_id = add_surface(scene, &parts); /* at y = 0, looking to -y */
-    configure_plainly(scene, 0);
-    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
+    (void)commit_plainly(scene);
     (void)tick_at(scene, 0.0, -0.001, 0.001);
     for (int k = 1; k < 20; k++) {
         const double in_floor = 0.0001 * k;
@@ -215,9 +214,7 @@ static knurl_scene *stack_of_planes(int count, int double_sided, double amplitud
         parts.desc.position[2] = -0.0001 * (count - 1 - i);
         (void)add_surface(scene, &parts);
     }
-    configure_plainly(scene, 0);
-    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
-    return scene;
+    return commit_plainly(scene);
 }
 
 TEST(more_surfaces_than_slots_are_flagged) {
@@ -256,8 +253,7 @@ TEST(surface_that_is_only_near_is_not_one_too_many) {
         (void)add_surface(scene, &plane);
     }
     (void)add_surface(scene, &parts);
-    configure_plainly(scene, 0);
-    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
+    (void)commit_plainly(scene);
     (void)tick_at(scene, 0.0, 0.0, 0.002);
     const knurl_tick_output out = tick_at(scene, 0.0, 0.0, 0.0005);
     assert_int_equal(out.contacts, 4);

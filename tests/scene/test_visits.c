@@ -151,8 +151,7 @@ TEST(a_crowd_of_meshes_holds_a_hip_that_is_pressed_into_it) {
         parts.desc.position[0] = 1e-5 * i;
         (void)add_surface(scene, &parts);
     }
-    configure_plainly(scene, 0);
-    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
+    (void)commit_plainly(scene);
     check_press(scene, 0.29, 1e-4, 32 * 0.002);
 }
 
@@ -166,8 +165,7 @@ TEST(a_surface_that_holds_has_room_before_crests) {
         parts.desc.position[2] = -5e-5 * (5 - i);
         (void)add_surface(scene, &parts);
     }
-    configure_plainly(scene, 0);
-    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
+    (void)commit_plainly(scene);
     (void)tick_at(scene, 0.001, 0.001, 0.002);
     (void)tick_at(scene, 0.001, 0.001, 0.0001);
     const knurl_tick_output out = tick_at(scene, 0.001, 0.001, -0.001);
@@ -246,8 +244,7 @@ static uint32_t exceeded_by_crowd(int count, int planes) {
             (void)add_surface(scene, &plane);
         }
     }
-    configure_plainly(scene, 0);
-    assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
+    (void)commit_plainly(scene);
     const knurl_surface_check check = first_check(scene);
     assert_int_equal(strstr(check.message, "16 meshes come within 1 mm") != NULL, count == 16);
     knurl_scene_destroy(scene);

@@ -55,4 +55,11 @@ static inline knurl_scene *scene_with(ledger *books) {
     return scene;
 }
 
+/** Destroys the scene, of which nothing may be left. */
+static inline void end_with(knurl_scene *scene, const ledger *books) {
+    knurl_scene_destroy(scene);
+    assert_int_equal(books->blocks, 0);
+    assert_true(books->bytes == 0);
+}
+
 #endif
