@@ -5,6 +5,7 @@
 
 #include "support/close.h"
 #include "support/double.h"
+#include "support/wait.h"
 
 #include "base/vec3.h"
 #include "device/port.h"
@@ -36,10 +37,14 @@ static inline int set_up(void **state) {
     return 0;
 }
 
-static inline int tear_down(void **state) {
-    (void)state;
+static inline void close_device(void) {
     knurl_device_close(device);
     device = NULL;
+}
+
+static inline int tear_down(void **state) {
+    (void)state;
+    close_device();
     assert_int_equal(hid.opened, hid.closed);
     fake_hid_destroy(&hid);
     return 0;
@@ -75,14 +80,8 @@ static inline void press_button(void) {
     knurl_system_mutex_unlock(&hid.mutex);
 }
 
-/* Outputs that a failed open must not change. */
-typedef struct opened {
-    knurl_device *device;
-} opened;
-
 static inline void check_open_refused(const char *options, knurl_result code, const char *words) {
-    opened out = {NULL};
-    CHECK_REFUSED(knurl_rawhid_open(options, &hid.bus, &out.device), code, out);
+    CHECK_REFUSED(knurl_rawhid_open(options, &hid.bus, &device), code, device);
     check_message(words);
     assert_int_equal(hid.opened, hid.closed);
 }
@@ -97,6 +96,11 @@ static inline knurl_device_sample wait_for_position(void) {
     knurl_device_sample sample;
     assert_true(tick_until(KNURL_OK, none, 5.0, &sample));
     return sample;
+}
+
+static inline void open_ready(const char *options) {
+    open_device(options);
+    (void)wait_for_position();
 }
 
 /* Ticks for a time. */
@@ -127,7 +131,7 @@ static inline void hold(double seconds, const double force[3]) {
         (void)knurl_device_read(device, &sample);
         knurl_port_release_halt(device);
         (void)knurl_device_write(device, force);
-        sleep_s(0.001);
+        sleep_ms(1.0);
     }
 }
 
@@ -145,18 +149,13 @@ static inline uint32_t events_of(int32_t code) {
 }
 
 static inline void wait_until_limp(void) {
-    const int64_t until = knurl_system_now_ns() + 5000000000;
-    while (fake_hid_limp_since(&hid) == 0 && knurl_system_now_ns() < until) {
-        sleep_s(0.001);
-    }
-    assert_true(fake_hid_limp_since(&hid) != 0);
+    WAIT_FOR(fake_hid_limp_since(&hid) != 0);
 }
 
 static inline void check_zeroed(int fault, int32_t code) {
     static const double force[3] = {0.0, 0.5, 0.0};
     knurl_device_sample sample;
-    open_device("");
-    (void)wait_for_position();
+    open_ready("");
     hold(0.05, force);
     fake_hid_inject(&hid, fault);
     assert_true(tick_until(KNURL_ERROR_DEVICE_NOT_READY, force, 5.0, &sample));

@@ -13,8 +13,7 @@ TEST_WITH(it_opens_with_reports_of_14_and_of_64_bytes_and_tells_where_it_is, set
         assert_true(vec3_length(sample.position) < 0.0003); /* the middle, within the encoders' steps and friction */
         uint8_t last[HID_SIM_MOST_BYTES + 1];
         assert_int_equal(last_sent(last), lengths[i] + 1);
-        knurl_device_close(device);
-        device = NULL;
+        close_device();
     }
 }
 
@@ -34,8 +33,7 @@ TEST_WITH(it_is_named_by_vendor_and_product, set_up, tear_down) {
     static const char *const bad[] = {"16c0", "16c0:", ":0486", "16c0:00486", "16c0:048g", "0x16c0:0486", "first"};
     for (size_t i = 0; i < COUNT_OF(good); i++) {
         open_device(good[i]);
-        knurl_device_close(device);
-        device = NULL;
+        close_device();
     }
     for (size_t i = 0; i < COUNT_OF(bad); i++) {
         check_open_refused(bad[i], KNURL_ERROR_ARGUMENT, bad[i]);
@@ -73,8 +71,7 @@ TEST_WITH(of_a_devices_interfaces_the_one_of_its_usage_is_opened, set_up, tear_d
     hid.found[0].usage_page = 0xffc9; /* a Teensy's emulated serial port */
     hid.found[0].usage = 4;
     hid.found_count = 2;
-    open_device("");
-    (void)wait_for_position();
+    open_ready("");
 }
 
 TEST_WITH(why_it_cannot_be_opened_is_said_in_a_sentence, set_up, tear_down) {
@@ -120,23 +117,28 @@ TEST_WITH(what_it_is_is_told, set_up, tear_down) {
     }
 }
 
-TEST_WITH(a_geometry_file_makes_it_another_device, set_up, tear_down) {
+/* Opens it with a geometry file of those lines. */
+static void open_with_geometry(const char *lines) {
     char path[512];
     char options[600];
     (void)snprintf(path, sizeof path, "%s/driver_%ld.geometry", KNURL_TEST_TMP, (long)getpid());
-    (void)snprintf(options, sizeof options, "?geometry=%s", path);
+    (void)snprintf(options, sizeof options, "?motors_known=1&geometry=%s", path);
     FILE *file = fopen(path, "w");
     if (!file) {
         fail_msg("%s cannot be written", path);
         return;
     }
-    (void)fputs("name = mine\nmax_force = 2\nvendor = 0xcafe\nproduct = 0x0001\nhome_on_open = 1\n", file);
+    (void)fputs(lines, file);
     (void)fclose(file);
+    open_device(options);
+    (void)remove(path);
+}
+
+TEST_WITH(a_geometry_file_makes_it_another_device, set_up, tear_down) {
     hid.found[0].vendor = 0xcafe;
     hid.found[0].product = 1;
     hid_sim_forget(&hid.sim);
-    open_device(options);
-    (void)remove(path);
+    open_with_geometry("name = mine\nmax_force = 2\nvendor = 0xcafe\nproduct = 0x0001\nhome_on_open = 1\n");
     const knurl_device_info info = device_info(device);
     assert_string_equal(info.name, "mine");
     CHECK_SAME(info.max_force, 2.0);
@@ -175,8 +177,7 @@ TEST_WITH(a_device_that_never_was_homed_gives_no_position_and_gets_no_force, set
 }
 
 TEST_WITH(its_button_homes_it_and_positions_come_again_after_a_pause, set_up, tear_down) {
-    open_device("");
-    (void)wait_for_position();
+    open_ready("");
     assert_int_equal(events_of(KNURL_FAULT_UNCALIBRATED), 0);
     press_button();
     knurl_device_sample sample;
@@ -205,8 +206,7 @@ static int has_followed(const double force[3]) {
 TEST_WITH(a_force_moves_the_hand_its_way_by_what_the_hand_gives, set_up, tear_down) {
     static const double forces[6][3] = {{2.0, 0.0, 0.0},  {0.0, 2.0, 0.0},  {0.0, 0.0, 2.0},
                                         {-2.0, 0.0, 0.0}, {0.0, -2.0, 0.0}, {0.0, 0.0, -2.0}};
-    open_device("");
-    (void)wait_for_position();
+    open_ready("");
     for (size_t i = 0; i < COUNT_OF(forces); i++) {
         int tries = 0;
         do {
@@ -228,20 +228,8 @@ static int greatest_current(void) {
 
 TEST_WITH(no_motor_ever_gets_more_than_its_limit, set_up, tear_down) {
     static const double far[3] = {0.0, 0.0, 100.0}; /* shortened to 5 N, which is 3.1 A of a motor */
-    char path[512];
-    char options[600];
     int greatest = 0;
-    (void)snprintf(path, sizeof path, "%s/limit_%ld.geometry", KNURL_TEST_TMP, (long)getpid());
-    (void)snprintf(options, sizeof options, "?motors_known=1&geometry=%s", path);
-    FILE *file = fopen(path, "w");
-    if (!file) {
-        fail_msg("%s cannot be written", path);
-        return;
-    }
-    (void)fputs("max_force = 5\n", file);
-    (void)fclose(file);
-    open_device(options);
-    (void)remove(path);
+    open_with_geometry("max_force = 5\n");
     (void)wait_for_position();
     for (int i = 0; i < 100; i++) {
         hold(0.002, far);
@@ -252,14 +240,12 @@ TEST_WITH(no_motor_ever_gets_more_than_its_limit, set_up, tear_down) {
 
 TEST_WITH(closing_leaves_the_motors_without_current, set_up, tear_down) {
     static const double force[3] = {0.0, 1.0, 0.0};
-    open_device("");
-    (void)wait_for_position();
+    open_ready("");
     for (int i = 0; i < 100 && fake_hid_limp_since(&hid) != 0; i++) {
         hold(0.05, force);
     }
     assert_true(fake_hid_limp_since(&hid) == 0);
-    knurl_device_close(device);
-    device = NULL;
+    close_device();
     assert_true(fake_hid_limp_since(&hid) != 0);
     assert_int_equal(greatest_current(), 0); /* earlier than by its watchdog after half a second */
     for (size_t i = 0; i < hid.last_size; i++) {
@@ -268,10 +254,9 @@ TEST_WITH(closing_leaves_the_motors_without_current, set_up, tear_down) {
 }
 
 TEST_WITH(it_hears_from_the_host_while_there_is_no_force_and_nobody_ticks, set_up, tear_down) {
-    open_device("");
-    (void)wait_for_position();
+    open_ready("");
     const uint32_t before = reports_sent();
-    sleep_s(0.15);
+    sleep_ms(150.0);
     assert_true(reports_sent() > before + 10);
 }
 

@@ -35,8 +35,7 @@ TEST_WITH(answers_of_random_bytes_are_no_positions, set_up, tear_down) {
 }
 
 TEST_WITH(a_jump_is_told_and_where_the_device_then_stays_is_believed, set_up, tear_down) {
-    open_device("");
-    (void)wait_for_position();
+    open_ready("");
     fake_hid_inject(&hid, DOUBLE_JUMP);
     wait_for_event(KNURL_FAULT_JUMP);
     const knurl_device_sample sample = wait_for_position();
@@ -56,18 +55,17 @@ TEST_WITH(old_reports_in_the_queue_are_no_positions, set_up, tear_down) {
     knurl_device_sample sample;
     hid_sim_say(&hid.sim, old);
     old[0] = 200; /* body a a tenth of a radian further: 9 mm to the right */
-    open_device("");
-    (void)wait_for_position();
+    open_ready("");
     for (int i = 0; i < 100; i++) {
         fake_hid_push(&hid, old, sizeof old);
-        sleep_s(0.001);
+        sleep_ms(1.0);
         if (knurl_device_read(device, &sample) == KNURL_OK) {
             /* a report may arrive between the driver's check of the queue and its own report */
             assert_true(fabs(sample.position[0]) < 0.0003 || fabs(sample.position[0] - 0.0086) < 0.0003);
         }
     }
     sample = wait_for_position();
-    sleep_s(0.01);
+    sleep_ms(10.0);
     assert_int_equal(knurl_device_read(device, &sample), KNURL_OK);
     assert_true(fabs(sample.position[0]) < 0.0003);
 }
@@ -75,8 +73,7 @@ TEST_WITH(old_reports_in_the_queue_are_no_positions, set_up, tear_down) {
 TEST_WITH(unplugged_it_is_lost_and_plugged_in_again_it_is_found, set_up, tear_down) {
     static const double force[3] = {0.0, 0.5, 0.0};
     knurl_device_sample sample;
-    open_device("");
-    (void)wait_for_position();
+    open_ready("");
     hold(0.05, force);
     const int64_t pulled = knurl_system_now_ns();
     fake_hid_inject(&hid, DOUBLE_UNPLUG);
@@ -95,8 +92,7 @@ TEST_WITH(unplugged_it_is_lost_and_plugged_in_again_it_is_found, set_up, tear_do
 
 TEST_WITH(a_second_of_silence_is_a_device_that_is_lost, set_up, tear_down) {
     knurl_device_sample sample;
-    open_device("");
-    (void)wait_for_position();
+    open_ready("");
     fake_hid_inject(&hid, DOUBLE_MUTE);
     assert_true(tick_until(KNURL_ERROR_DEVICE_LOST, none, 5.0, &sample));
     fake_hid_inject(&hid, DOUBLE_WELL);
@@ -118,7 +114,6 @@ TEST_WITH(found_again_it_is_homed_only_if_it_lost_its_counters, set_up, tear_dow
         fake_hid_inject(&hid, DOUBLE_WELL);
         assert_int_equal(knurl_device_reopen(device), KNURL_OK);
         assert_int_equal(commands_sent() > commands, loses);
-        knurl_device_close(device);
-        device = NULL;
+        close_device();
     }
 }

@@ -17,8 +17,7 @@ static void press(uint64_t tick, const knurl_device_sample *sample, double force
 static void run(double seconds, double *before, double *after) {
     knurl_loop_desc desc;
     knurl_loop *loop = NULL;
-    open_device("");
-    (void)wait_for_position();
+    open_ready("");
     knurl_loop_desc_init(&desc, sizeof desc);
     desc.device = device;
     desc.force_callback = press;
@@ -26,13 +25,12 @@ static void run(double seconds, double *before, double *after) {
     assert_int_equal(knurl_loop_start(loop), KNURL_OK);
     knurl_loop_stats stats = loop_stats(loop);
     *before = stats.heat;
-    sleep_s(seconds);
+    sleep_ms(1000.0 * seconds);
     knurl_loop_stop(loop);
     stats = loop_stats(loop);
     *after = stats.heat;
     knurl_loop_destroy(loop);
-    knurl_device_close(device);
-    device = NULL;
+    close_device();
 }
 
 /* theta' = ((F/continuous)^2 - theta)/time; the ramps at both ends and late ticks leave more than half of it. */

@@ -21,14 +21,23 @@ static emulated_hid hid;
 
 static const double none[3] = {0.0, 0.0, 0.0};
 
+static knurl_device *device;       /* closed by tear_down() */
+static knurl_device_sample latest; /* reading */
+
 static int set_up(void **state) {
     (void)state;
     emulated_hid_init(&hid);
     return 0;
 }
 
+static void close_device(void) {
+    knurl_device_close(device);
+    device = NULL;
+}
+
 static int tear_down(void **state) {
     (void)state;
+    close_device();
     emulated_hid_destroy(&hid);
     return 0;
 }
@@ -38,34 +47,46 @@ static void plug(uint16_t usage_page, uint8_t report_bytes) {
     assert_int_equal(emulated_hid_plug(&hid, usage_page, report_bytes, NULL), 1);
 }
 
-static knurl_device *open_device(void) {
-    knurl_device *device = NULL;
-    const knurl_result result = knurl_device_open("rawhid", &device);
-    if (result) {
-        print_error("%s\n", knurl_error_message());
+static void open_device(void) {
+    if (knurl_device_open("rawhid", &device)) {
+        fail_msg("%s", knurl_error_message());
     }
-    assert_int_equal(result, KNURL_OK);
-    return device;
+}
+
+/* Ticks until a read returns `result`, which it must within 5 s. */
+static void tick_until(knurl_result result, const double force[3]) {
+    assert_true(tick_device_until(device, result, force, 5.0, &latest));
+}
+
+/* Plugs it in and opens it; its first position has come. */
+static void open_ready(uint8_t report_bytes) {
+    plug(0xffab, report_bytes);
+    open_device();
+    tick_until(KNURL_OK, none);
+}
+
+static void mute(int is_mute) {
+    knurl_system_mutex_lock(&hid.mutex);
+    hid.is_mute = is_mute;
+    knurl_system_mutex_unlock(&hid.mutex);
 }
 
 /* Ticks like a loop that always recovers from halts, which load may cause. */
-static void hold(knurl_device *device, const double force[3], double seconds) {
-    knurl_device_sample sample;
+static void hold(const double force[3], double seconds) {
     const int64_t until = knurl_system_now_ns() + (int64_t)(seconds * 1e9);
     while (knurl_system_now_ns() < until) {
-        (void)knurl_device_read(device, &sample);
+        (void)knurl_device_read(device, &latest);
         knurl_port_release_halt(device);
         (void)knurl_device_write(device, force);
-        sleep_s(0.001);
+        sleep_ms(1.0);
     }
 }
 
 /* 2000 N/m; 0.3 N of friction, and the encoders' steps. */
-static int has_followed(knurl_device *device, const double force[3]) {
-    knurl_device_sample sample;
-    int near = knurl_device_read(device, &sample) == KNURL_OK;
+static int has_followed(const double force[3]) {
+    int near = knurl_device_read(device, &latest) == KNURL_OK;
     for (int axis = 0; axis < 3; axis++) {
-        near = near && fabs(sample.position[axis] - force[axis] / 2000.0) <= 0.3 / 2000.0 + 0.0002;
+        near = near && fabs(latest.position[axis] - force[axis] / 2000.0) <= 0.3 / 2000.0 + 0.0002;
     }
     return near;
 }
@@ -78,10 +99,8 @@ static double limp_since(void) {
 }
 
 static void check_refused(knurl_result code, const char *words) {
-    struct {
-        knurl_device *device;
-    } out = {NULL};
-    CHECK_REFUSED(knurl_device_open("rawhid", &out.device), code, out);
+    knurl_device *second = NULL;
+    CHECK_REFUSED(knurl_device_open("rawhid", &second), code, second);
     check_message(words);
 }
 
@@ -105,34 +124,28 @@ TEST_WITH(it_is_listed_opened_and_closed_again_and_again, set_up, tear_down) {
     assert_string_equal(listing.name, "Teensyduino WoodenHaptics");
     assert_string_equal(listing.reason, "");
     for (int i = 0; i < 5; i++) {
-        knurl_device_sample sample;
-        SCOPED_DEVICE *device = open_device();
-        assert_true(tick_device_until(device, KNURL_OK, none, 5.0, &sample));
-        assert_true(vec3_length(sample.position) < 0.0003);
+        open_device();
+        tick_until(KNURL_OK, none);
+        assert_true(vec3_length(latest.position) < 0.0003);
+        close_device();
     }
 }
 
 TEST_WITH(a_force_moves_the_hand_its_way_and_closing_ends_it, set_up, tear_down) {
     static const double force[3] = {1.0, -2.0, 0.5};
-    knurl_device_sample sample;
-    plug(0xffab, 64);
-    knurl_device *device = open_device();
-    assert_true(tick_device_until(device, KNURL_OK, none, 5.0, &sample));
+    open_ready(64);
     int tries = 0;
     do {
-        hold(device, force, 1.0);
-    } while (!has_followed(device, force) && ++tries < 15);
+        hold(force, 1.0);
+    } while (!has_followed(force) && ++tries < 15);
     assert_true(tries < 15);
-    knurl_device_close(device);
-    sleep_s(0.02);
+    close_device();
+    sleep_ms(20.0);
     assert_true(limp_since() >= 0.0);
 }
 
 TEST_WITH(reports_of_14_bytes_work_as_well, set_up, tear_down) {
-    knurl_device_sample sample;
-    plug(0xffab, 14);
-    SCOPED_DEVICE *device = open_device();
-    assert_true(tick_device_until(device, KNURL_OK, none, 5.0, &sample));
+    open_ready(14);
 }
 
 TEST_WITH(an_interface_of_another_usage_is_refused_in_a_sentence, set_up, tear_down) {
@@ -171,7 +184,6 @@ TEST_WITH(permission_denied_names_the_rule_that_helps, set_up, tear_down) {
     }
     const pid_t child = fork();
     if (child == 0) {
-        knurl_device *device = NULL;
         if (is_root && (setgid(NOBODY) != 0 || setuid(NOBODY) != 0)) {
             _exit(1);
         }
@@ -190,47 +202,36 @@ TEST_WITH(permission_denied_names_the_rule_that_helps, set_up, tear_down) {
 
 TEST_WITH(muted_it_is_halted_and_comes_back, set_up, tear_down) {
     static const double force[3] = {0.0, 0.5, 0.0};
-    knurl_device_sample sample;
-    plug(0xffab, 64);
-    SCOPED_DEVICE *device = open_device();
-    assert_true(tick_device_until(device, KNURL_OK, none, 5.0, &sample));
-    (void)tick_device_until(device, 1, force, 0.1, &sample);
-    knurl_system_mutex_lock(&hid.mutex);
-    hid.is_mute = 1;
-    knurl_system_mutex_unlock(&hid.mutex);
-    assert_true(tick_device_until(device, KNURL_ERROR_DEVICE_NOT_READY, force, 5.0, &sample));
-    sleep_s(0.05);
+    open_ready(64);
+    (void)tick_device_until(device, 1, force, 0.1, &latest);
+    mute(1);
+    tick_until(KNURL_ERROR_DEVICE_NOT_READY, force);
+    sleep_ms(50.0);
     assert_true(limp_since() >= 0.0);
-    knurl_system_mutex_lock(&hid.mutex);
-    hid.is_mute = 0;
-    knurl_system_mutex_unlock(&hid.mutex);
-    assert_true(tick_device_until(device, KNURL_OK, none, 5.0, &sample));
+    mute(0);
+    tick_until(KNURL_OK, none);
 }
 
 TEST_WITH(unplugged_it_is_lost_and_plugged_in_again_it_is_found, set_up, tear_down) {
-    knurl_device_sample sample;
-    plug(0xffab, 64);
-    SCOPED_DEVICE *device = open_device();
-    assert_true(tick_device_until(device, KNURL_OK, none, 5.0, &sample));
+    open_ready(64);
     const int64_t pulled = knurl_system_now_ns();
     emulated_hid_unplug(&hid);
-    assert_true(tick_device_until(device, KNURL_ERROR_DEVICE_LOST, none, 5.0, &sample));
+    tick_until(KNURL_ERROR_DEVICE_LOST, none);
     assert_true(knurl_system_now_ns() - pulled < 500000000); /* reported by the system, not by a second's silence */
     assert_int_equal(knurl_device_reopen(device), KNURL_ERROR_DEVICE_LOST);
     plug(0xffab, 64);
     assert_int_equal(knurl_device_reopen(device), KNURL_OK);
-    assert_true(tick_device_until(device, KNURL_OK, none, 5.0, &sample));
+    tick_until(KNURL_OK, none);
 }
 
 /* In a child, until it is killed. */
 static void push_for_ever(void) {
     static const double force[3] = {0.0, 0.5, 0.0};
-    knurl_device *device = NULL;
     if (knurl_device_open("rawhid:?guard=1", &device)) {
         print_error("%s\n", knurl_error_message());
         _exit(2);
     }
-    hold(device, force, 20.0);
+    hold(force, 20.0);
     _exit(3);
 }
 
@@ -247,14 +248,14 @@ TEST_WITH(a_guard_zeroes_the_currents_of_a_host_that_is_killed_or_stands_still, 
             push_for_ever();
         }
         for (int i = 0; i < 5000 && limp_since() >= 0.0; i++) {
-            sleep_s(0.001);
+            sleep_ms(1.0);
         }
         assert_true(limp_since() < 0.0);
-        sleep_s(0.05);
+        sleep_ms(50.0);
         const double killed = 1e-9 * (double)knurl_system_now_ns();
         assert_int_equal(kill(child, number), 0);
         for (int i = 0; i < 400 && limp_since() < killed; i++) {
-            sleep_s(0.001);
+            sleep_ms(1.0);
         }
         print_message("signal %d: zero after %.1f ms\n", number, 1e3 * (limp_since() - killed));
         assert_true(limp_since() >= killed && limp_since() - killed < 0.1); /* its firmware alone: 0.5 s */
@@ -267,13 +268,11 @@ TEST_WITH(a_guard_zeroes_the_currents_of_a_host_that_is_killed_or_stands_still, 
 /* --- one at a time --- */
 
 TEST_WITH(a_second_opening_in_this_program_is_refused_in_a_sentence, set_up, tear_down) {
-    knurl_device_sample sample;
-    plug(0xffab, 64);
-    knurl_device *device = open_device();
+    open_ready(64);
     check_refused(KNURL_ERROR_SYSTEM, "/dev/hidraw0 could not be opened: it is in use");
-    assert_true(tick_device_until(device, KNURL_OK, none, 5.0, &sample)); /* the first one continues */
-    knurl_device_close(device);
-    knurl_device_close(open_device());
+    tick_until(KNURL_OK, none); /* the first one continues */
+    close_device();
+    open_device();
 }
 
 /* A second program. Returns its exit code: 0 if it was refused with a message. */
@@ -281,7 +280,6 @@ static int open_in_another_program(void) {
     int status = 0;
     const pid_t child = fork();
     if (child == 0) {
-        knurl_device *device = NULL;
         const knurl_result result = knurl_device_open("rawhid", &device);
         _exit(result == KNURL_OK                                                         ? 1
               : result != KNURL_ERROR_SYSTEM || !strstr(knurl_error_message(), "in use") ? 2
@@ -294,11 +292,9 @@ static int open_in_another_program(void) {
 
 TEST_WITH(a_device_that_another_program_has_is_refused_in_a_sentence, set_up, tear_down) {
     skip_under_sanitizers();
-    knurl_device_sample sample;
-    plug(0xffab, 64);
-    SCOPED_DEVICE *device = open_device();
+    open_ready(64);
     assert_int_equal(open_in_another_program(), 0);
-    assert_true(tick_device_until(device, KNURL_OK, none, 5.0, &sample));
+    tick_until(KNURL_OK, none);
 }
 
 /* Only the kernel cleans up then. */
@@ -311,7 +307,6 @@ TEST_WITH(a_program_that_was_killed_has_no_device_any_more, set_up, tear_down) {
     assert_int_equal(pipe(pipes), 0);
     const pid_t child = fork();
     if (child == 0) {
-        knurl_device *device = NULL;
         const char told = knurl_device_open("rawhid", &device) == KNURL_OK ? 'y' : 'n';
         (void)!write(pipes[1], &told, 1);
         (void)pause();
@@ -322,7 +317,7 @@ TEST_WITH(a_program_that_was_killed_has_no_device_any_more, set_up, tear_down) {
     check_refused(KNURL_ERROR_SYSTEM, "in use");
     assert_int_equal(kill(child, SIGKILL), 0);
     assert_int_equal(waitpid(child, &status, 0), child);
-    knurl_device_close(open_device());
+    open_device();
     (void)close(pipes[0]);
     (void)close(pipes[1]);
 }

@@ -4,11 +4,7 @@
 
 #include <knurl/device.h>
 
-#include "base/system.h"
-
-static inline void sleep_s(double s) {
-    knurl_system_sleep_until_ns(knurl_system_now_ns() + (int64_t)(s * 1e9));
-}
+#include "support/wait.h"
 
 /* Reads and writes `force` at 1 kHz or slower until a read returns `result`: 1; or 0 after `seconds`. */
 static inline int tick_device_until(knurl_device *device, knurl_result result, const double force[3], double seconds,
@@ -19,7 +15,7 @@ static inline int tick_device_until(knurl_device *device, knurl_result result, c
             return 1;
         }
         (void)knurl_device_write(device, force);
-        sleep_s(0.001);
+        sleep_ms(1.0);
     } while (knurl_system_now_ns() < until);
     return 0;
 }
