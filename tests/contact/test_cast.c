@@ -37,7 +37,7 @@ static const double plate[3][3] = {{-0.05, -0.04, 0.0}, {0.06, -0.03, 0.0}, {0.0
 TEST(a_triangle_reaches_beyond_each_edge_by_the_seam) {
     static const double down[2] = {0.03, -0.02};
     for (int way = 0; way < WAYS; way++) {
-        probe p = make(plate, way);
+        SCOPED_PROBE p = make(plate, way);
         knurl_cast_hit hit;
         for (int edge = 0; edge < 3; edge++) {
             const double *a = plate[edge], *b = plate[(edge + 1) % 3];
@@ -59,7 +59,6 @@ TEST(a_triangle_reaches_beyond_each_edge_by_the_seam) {
                 }
             }
         }
-        probe_free(&p);
     }
 }
 
@@ -68,7 +67,7 @@ TEST(a_sliver_reaches_beyond_its_tips_by_the_seam_too) {
     static const double sliver[3][3] = {{-0.05, 0.0, 0.0}, {0.05, 0.0, 0.0}, {0.02, 2e-7, 0.0}};
     static const double down[2] = {0.01, -0.01};
     for (int way = 0; way < WAYS; way++) {
-        probe p = make(sliver, way);
+        SCOPED_PROBE p = make(sliver, way);
         knurl_cast_hit hit;
         for (int side = -1; side <= 1; side += 2) {
             const double near[2] = {side * (0.05 + 0.5 * p.mesh->facts.seam), 0.0};
@@ -78,7 +77,6 @@ TEST(a_sliver_reaches_beyond_its_tips_by_the_seam_too) {
             assert_int_equal(cast(&p, way, beyond, 0.01, down, 0, &hit), 0);
             assert_int_equal(cast(&p, way, above, 0.01, down, 0, &hit), 0);
         }
-        probe_free(&p);
     }
 }
 
@@ -95,7 +93,7 @@ TEST(a_cast_hits_what_it_comes_through_from_the_front_or_from_where_it_stands) {
                  {{1e-9, 1e-9}, 0, 0, 0.0}};
     static const double xy[2] = {0.005, 0.0};
     for (int way = 0; way < WAYS; way++) {
-        probe p = make(plate, way);
+        SCOPED_PROBE p = make(plate, way);
         for (size_t i = 0; i < COUNT_OF(cases); i++) {
             for (int both = 0; both < 2; both++) {
                 knurl_cast_hit hit;
@@ -109,7 +107,6 @@ TEST(a_cast_hits_what_it_comes_through_from_the_front_or_from_where_it_stands) {
                 }
             }
         }
-        probe_free(&p);
     }
 }
 
@@ -126,13 +123,12 @@ TEST(the_first_of_several_is_hit) {
             }
             s = shape_join(&s, &above);
         }
-        probe p = probe_shape(&s);
+        SCOPED_PROBE p = probe_shape(&s);
         const double top = order & 1 ? 0.02 : 0.0;
         const double ends[2] = {top + 0.01 * order + 0.005, -0.05};
         knurl_cast_hit hit;
         assert_int_equal(cast(&p, 0, xy, 0.0, ends, 0, &hit), 1);
         CHECK_CLOSE(hit.point[2], top, 1e-8);
         CHECK_CLOSE(hit.share, (ends[0] - top) / (ends[0] - ends[1]), 1e-6);
-        probe_free(&p);
     }
 }

@@ -29,9 +29,9 @@ static void random_point(const shape *s, double size, uint64_t *seed, double out
 
 /* Compares, and frees the shape. */
 static void compare(shape *s, const char *name, double size, int64_t queries, uint64_t seed) {
-    shape copy = body_copy(s);
+    SCOPED_SHAPE copy = body_copy(s);
     oracle o = oracle_make(&copy);
-    probe p = probe_shape(s);
+    SCOPED_PROBE p = probe_shape(s);
     double worst = 0.0;
     for (int64_t k = 0; k < queries; k++) {
         double at[3];
@@ -50,8 +50,6 @@ static void compare(shape *s, const char *name, double size, int64_t queries, ui
     total_worst = fmax(total_worst, worst);
     assert_true(worst <= TOLERANCE);
     oracle_free(&o);
-    shape_free(&copy);
-    probe_free(&p);
 }
 
 /* KNURL_LONG=10 in the environment makes ten times as many queries. */

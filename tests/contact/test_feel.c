@@ -18,7 +18,7 @@ TEST(beyond_a_rim_and_a_hard_edge_the_hip_is_held_from_neither) {
         }
         const knurl_mesh_desc desc = {
             .struct_size = sizeof desc, .vertex_count = 6, .positions = positions, .normals = given};
-        probe p = {.mesh = NULL};
+        SCOPED_PROBE p = {.mesh = NULL};
         knurl_facet facet;
         knurl_heap_init(&p.heap, NULL);
         assert_int_equal(knurl_mesh_create(&p.heap, &desc, &p.mesh), KNURL_OK);
@@ -28,6 +28,5 @@ TEST(beyond_a_rim_and_a_hard_edge_the_hip_is_held_from_neither) {
         for (int axis = 0; axis < 3; axis++) {
             CHECK_CLOSE(c.normal[axis], normals[1][axis], 2e-4); /* normals are packed */
         }
-        probe_free(&p);
     }
 }

@@ -30,7 +30,7 @@ static shape make_grooves(double period, double depth) {
 /* To and fro, 1 mm below the ridges; the proxy may not lag by more than the half period that it cannot see past. */
 static double drag(double period, double depth, double speed, double across) {
     shape s = make_grooves(period, depth);
-    probe p = probe_shape(&s);
+    SCOPED_PROBE p = probe_shape(&s);
     double worst = 0.0;
     double x = -0.03;
     double way = 0.001 * speed;
@@ -42,7 +42,6 @@ static double drag(double period, double depth, double speed, double across) {
         assert_true(p.contact.z < 0.0);
         worst = fmax(worst, fabs(p.contact.proxy[0] - x));
     }
-    probe_free(&p);
     return worst;
 }
 
@@ -65,7 +64,7 @@ TEST(fast_strokes_do_not_get_through_a_thin_wall) {
     const double half[3] = {0.04, 0.03, 0.00025};
     uint64_t seed = 3;
     shape wall = shape_box(half, 0);
-    probe p = probe_shape(&wall);
+    SCOPED_PROBE p = probe_shape(&wall);
     for (int k = 0; k < 20000; k++) {
         double hip[3];
         double way[3];
@@ -90,7 +89,6 @@ TEST(fast_strokes_do_not_get_through_a_thin_wall) {
             }
         }
     }
-    probe_free(&p);
 }
 
 /* Two thin fins side by side: a HIP that leaves one in a tick and goes through the next is held by the next. */
@@ -107,7 +105,7 @@ TEST(second_wall_behind_a_first_holds_in_the_same_tick) {
         two.indices[i] = one.indices[i % 36] + (i < 36 ? 0 : 8);
     }
     shape_free(&one);
-    probe p = probe_shape(&two);
+    SCOPED_PROBE p = probe_shape(&two);
     assert_false(probe_to(&p, 0.0005, 0.001, 0.0)); /* between the fins, pressed into the left one */
     assert_true(probe_to(&p, -0.0009, 0.001, 0.0));
     assert_true(p.contact.normal[0] > 0.999);
@@ -116,7 +114,6 @@ TEST(second_wall_behind_a_first_holds_in_the_same_tick) {
     CHECK_CLOSE(-p.contact.z, 0.0030 - 0.0008, 1e-8);
     assert_true(probe_to(&p, 0.0012, 0.001, 0.0));
     assert_false(probe_to(&p, 0.0, 0.001, 0.0));
-    probe_free(&p);
 }
 
 /* Floors one above another: pressed through the upper one's valley, a HIP is not handed on to the lower one. */
@@ -132,7 +129,7 @@ TEST(valley_above_another_floor_keeps_its_hip) {
         at = shape_quad(&s, at, a, a + 1, a + 4, a + 3);
         at = shape_quad(&s, at, a + 1, a + 2, a + 5, a + 4);
     }
-    probe p = probe_shape(&s);
+    SCOPED_PROBE p = probe_shape(&s);
     (void)probe_to(&p, 0.0, 0.0, 0.001);
     for (int k = 0; k <= 100; k++) { /* straight down through the bottom of the V, past the floor below */
         assert_true(probe_to(&p, 1e-4, 0.0, -0.0052 - 4e-5 * k));
@@ -142,5 +139,4 @@ TEST(valley_above_another_floor_keeps_its_hip) {
         assert_true(probe_to(&p, 1e-4 + 3e-5 * k, 0.0, -0.0085));
         assert_true(p.contact.proxy[2] > -0.0051);
     }
-    probe_free(&p);
 }

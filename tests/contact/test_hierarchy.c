@@ -12,21 +12,19 @@ TEST(hierarchy_holds_every_triangle_once) {
     for (size_t i = 0; i < COUNT_OF(counts); i++) {
         shape soup = shape_soup(100 + i, counts[i], 0.2);
         const uint64_t sum = sum_of_corners(soup.positions, soup.indices, soup.index_count);
-        probe p = probe_shape(&soup);
+        SCOPED_PROBE p = probe_shape(&soup);
         assert_int_equal(p.mesh->triangle_count, counts[i]);
         assert_true(sum_of_corners(p.mesh->positions, p.mesh->triangles, 3 * (size_t)counts[i]) == sum);
         check_hierarchy(p.mesh);
-        probe_free(&p);
     }
 }
 
 TEST(hierarchy_of_1e5_triangles_is_sound) {
     const double half[2] = {0.1, 0.1};
     shape sheet = shape_sheet(250, 200, half, bumps);
-    probe p = probe_shape(&sheet);
+    SCOPED_PROBE p = probe_shape(&sheet);
     assert_int_equal(p.mesh->triangle_count, 100000);
     check_hierarchy(p.mesh);
-    probe_free(&p);
 }
 
 /* Triangles whose boxes all have the same centre: no plane parts them. */
@@ -42,9 +40,8 @@ TEST(hierarchy_of_triangles_with_one_centre_is_sound) {
             star.indices[3 * i + k] = 3 * i + k;
         }
     }
-    probe p = probe_shape(&star);
+    SCOPED_PROBE p = probe_shape(&star);
     check_hierarchy(p.mesh);
-    probe_free(&p);
 }
 
 /* Triangles along each axis, each 8 times smaller and nearer than the one before, down to some nanometres: every split
@@ -62,10 +59,9 @@ TEST(hierarchy_of_ever_smaller_triangles_keeps_its_depth) {
             tail.indices[3 * i + k] = 3 * i + k;
         }
     }
-    probe p = probe_shape(&tail);
+    SCOPED_PROBE p = probe_shape(&tail);
     assert_int_equal(p.mesh->triangle_count, 3 * levels);
     check_hierarchy(p.mesh);
-    probe_free(&p);
 }
 
 /* Flat except for rounding errors: extents whose inverse overflows a float. */
@@ -75,20 +71,19 @@ TEST(hierarchy_of_subnormal_noise_is_sound) {
     for (uint32_t v = 0; v < sheet.vertex_count; v++) {
         sheet.positions[3 * v + 2] = (float)random_between(&seed, -1e-40, 1e-40);
     }
-    probe p = probe_shape(&sheet);
+    SCOPED_PROBE p = probe_shape(&sheet);
     check_hierarchy(p.mesh);
     (void)probe_to(&p, 0.01, 0.02, 0.001);
     assert_true(probe_to(&p, 0.01, 0.02, -0.001));
     CHECK_CLOSE(p.contact.z, -0.001, 1e-12);
-    probe_free(&p);
 }
 
 /* The nearest of all triangles, for points in it, at its corners, on it, and outside; with a radius that just holds. */
 static void compare_closest(shape *s, uint64_t seed, int points) {
-    shape copy = shape_new(s->vertex_count, s->index_count, 0);
+    SCOPED_SHAPE copy = shape_new(s->vertex_count, s->index_count, 0);
     memcpy(copy.positions, s->positions, s->vertex_count * 3 * sizeof(float));
     memcpy(copy.indices, s->indices, s->index_count * sizeof(uint32_t));
-    probe p = probe_shape(s);
+    SCOPED_PROBE p = probe_shape(s);
     for (int k = 0; k < points; k++) {
         knurl_contact found;
         double at[3];
@@ -109,8 +104,6 @@ static void compare_closest(shape *s, uint64_t seed, int points) {
         CHECK_CLOSE(found.weights[0] + found.weights[1] + found.weights[2], 1.0, 1e-12);
         assert_false(expected > 1e-6 && knurl_mesh_closest(p.mesh, at, expected - 1e-9, NULL, NULL, &found));
     }
-    shape_free(&copy);
-    probe_free(&p);
 }
 
 TEST(closest_point_matches_brute_force) {
@@ -148,8 +141,8 @@ static int first_crossing(const shape *s, const double a[3], const double b[3], 
 
 static void compare_cross(uint64_t seed, uint32_t triangles, double size, double stroke) {
     shape soup = shape_soup(seed, triangles, size);
-    shape copy = shape_soup(seed, triangles, size);
-    probe p = probe_shape(&soup);
+    SCOPED_SHAPE copy = shape_soup(seed, triangles, size);
+    SCOPED_PROBE p = probe_shape(&soup);
     int hits = 0;
     for (int k = 0; k < 6000; k++) {
         double a[3];
@@ -176,8 +169,6 @@ static void compare_cross(uint64_t seed, uint32_t triangles, double size, double
         }
     }
     assert_in_range(hits, 200, 6000);
-    shape_free(&copy);
-    probe_free(&p);
 }
 
 TEST(first_crossing_matches_brute_force) {
@@ -189,8 +180,8 @@ TEST(first_crossing_matches_brute_force) {
 /* Through every edge and corner of a closed body from outside to its middle: between two neighbours there is no gap. */
 TEST(no_stroke_slips_between_neighbours) {
     shape sphere = shape_sphere(0.03, 3);
-    shape copy = shape_sphere(0.03, 3);
-    probe p = probe_shape(&sphere);
+    SCOPED_SHAPE copy = shape_sphere(0.03, 3);
+    SCOPED_PROBE p = probe_shape(&sphere);
     for (uint32_t i = 0; i < copy.index_count; i++) {
         for (int k = 0; k <= 4; k++) { /* along the edge from corner i to the next: at its ends, and between */
             const double middle[3] = {0.0, 0.0, 0.0};
@@ -207,6 +198,4 @@ TEST(no_stroke_slips_between_neighbours) {
             assert_int_equal(knurl_mesh_cross(p.mesh, middle, from, 1, NULL, NULL, &found), -1);
         }
     }
-    shape_free(&copy);
-    probe_free(&p);
 }

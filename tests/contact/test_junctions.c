@@ -41,13 +41,12 @@ TEST(three_sheets_on_one_edge_hold_on) {
                 turn_over(&fin, i);
             }
             shape both = shape_join(&sheet, &fin);
-            probe p = probe_shape(&both);
+            SCOPED_PROBE p = probe_shape(&both);
             assert_true(p.mesh->non_manifold_count >= 9);
             if (way < 0) {
                 stroke_over(&p, 0.001);
             }
             stroke_over(&p, 0.0001);
-            probe_free(&p);
         }
     }
 }
@@ -62,10 +61,9 @@ TEST(bow_ties_hold_on) {
         memcpy(&cone.indices[3 * (size_t)i], corners, sizeof corners);
     }
     shape both = shape_join(&sheet, &cone);
-    probe p = probe_shape(&both);
+    SCOPED_PROBE p = probe_shape(&both);
     assert_true(p.mesh->non_manifold_count > 0);
     stroke_over(&p, 0.001);
-    probe_free(&p);
 }
 
 TEST(double_layers_hold_across_every_border) {
@@ -76,11 +74,10 @@ TEST(double_layers_hold_across_every_border) {
             turn_over(&bottom, i);
         }
         shape both = shape_join(front > 0 ? &top : &bottom, front > 0 ? &bottom : &top);
-        probe p = probe_shape(&both);
+        SCOPED_PROBE p = probe_shape(&both);
         assert_int_equal(p.mesh->facts.reversed_twins, 128);
         p.query.double_sided = p.mesh->double_sided;
         stroke_over(&p, 0.001);
-        probe_free(&p);
     }
 }
 
@@ -93,10 +90,9 @@ TEST(triangles_turned_at_random_hang_together) {
             turn_over(&sheet, i);
         }
     }
-    probe p = probe_shape(&sheet);
+    SCOPED_PROBE p = probe_shape(&sheet);
     assert_int_equal(p.mesh->non_manifold_count, 0);
     assert_int_equal(p.mesh->triangle_count, 800);
-    probe_free(&p);
 }
 
 /* The larger one of two that face opposite ways is the front, in any order. */
@@ -109,18 +105,17 @@ TEST(the_larger_area_is_the_front) {
         }
         memcpy(&s.indices[small ? 0 : 3], (const uint32_t[3]){0, 1, 2}, 3 * sizeof(uint32_t)); /* faces up */
         memcpy(&s.indices[small ? 3 : 0], (const uint32_t[3]){0, 1, 3}, 3 * sizeof(uint32_t)); /* faces down */
-        probe p = probe_shape(&s);
+        SCOPED_PROBE p = probe_shape(&s);
         assert_int_equal(p.mesh->facts.turned, 1);
         (void)probe_to(&p, 0.002, 0.0, 0.001);
         assert_true(probe_to(&p, 0.002, 0.0, -0.001));
-        probe_free(&p);
     }
 }
 
 /* A double-sided surface has no inside: a HIP first seen behind it is behind it. */
 TEST(first_tick_behind_a_double_sided_sheet_is_behind) {
     shape sheet = shape_sheet(8, 8, half, NULL);
-    probe p = probe_shape(&sheet);
+    SCOPED_PROBE p = probe_shape(&sheet);
     p.query.double_sided = 1;
     assert_false(probe_to(&p, 0.001, 0.002, -0.005));
     probe_forget(&p);
@@ -133,7 +128,6 @@ TEST(first_tick_behind_a_double_sided_sheet_is_behind) {
     p.query.double_sided = 0; /* single-sided: pressed in from the start */
     assert_true(probe_to(&p, 0.001, 0.002, -0.005));
     CHECK_CLOSE(-p.contact.z, 0.005, 1e-12);
-    probe_free(&p);
 }
 
 /* Two halves of a sheet, with vertices of their own, whose borders along x = 0 run `gap` m apart; four times as many on
@@ -153,7 +147,7 @@ static shape halves(double gap) {
 /* In by one half and at the end of the tick below the other, at all angles. */
 TEST(entering_beside_a_t_junction_and_passing_it_in_one_tick_holds) {
     shape s = halves(0.0);
-    probe p = probe_shape(&s);
+    SCOPED_PROBE p = probe_shape(&s);
     for (int line = -18; line <= 18; line++) {
         for (int k = 1; k <= 60; k++) {
             for (int32_t front = 1; front >= -1; front -= 2) {
@@ -168,14 +162,13 @@ TEST(entering_beside_a_t_junction_and_passing_it_in_one_tick_holds) {
             }
         }
     }
-    probe_free(&p);
 }
 
 /* A slot of 1 mm, crossed within a tick from inside: in reach on its own side beyond it is in contact, further is not;
  * in the slot itself there is nothing. */
 TEST(leaving_a_sheet_across_a_slot_is_in_reach_beyond_it) {
     shape s = halves(0.001);
-    probe p = probe_shape(&s);
+    SCOPED_PROBE p = probe_shape(&s);
     p.query.reach = 0.0005;
     p.query.double_sided = 1;
     for (int32_t side = 1; side >= -1; side -= 2) {
@@ -197,7 +190,6 @@ TEST(leaving_a_sheet_across_a_slot_is_in_reach_beyond_it) {
             }
         }
     }
-    probe_free(&p);
 }
 
 /* A plate of 1 mm whose top is cut in two along T-junctions: pressed 3 mm through the plate, over the cut. */
@@ -219,7 +211,7 @@ TEST(t_junction_on_a_thin_plate_is_slid_over_however_deep) {
     }
     shape top = shape_join(&left, &right);
     shape plate = shape_join(&top, &bottom);
-    probe p = probe_shape(&plate);
+    SCOPED_PROBE p = probe_shape(&plate);
     for (int line = -15; line <= 15; line++) {
         for (int way = -1; way <= 1; way += 2) {
             probe_forget(&p);
@@ -230,7 +222,6 @@ TEST(t_junction_on_a_thin_plate_is_slid_over_however_deep) {
             }
         }
     }
-    probe_free(&p);
 }
 
 /* Anything at all: a HIP that wanders through random triangles, welded in part, many on one edge, some turned over. */
@@ -241,8 +232,8 @@ TEST(soup_of_everything_stays_finite_and_on_the_mesh) {
         for (uint32_t k = 0; k < s.index_count; k++) { /* few vertices, shared at random */
             s.indices[k] = (uint32_t)random_integer(&seed, 0, i < 3 ? 30 : 300);
         }
-        shape copy = body_copy(&s);
-        probe p = probe_shape(&s);
+        SCOPED_SHAPE copy = body_copy(&s);
+        SCOPED_PROBE p = probe_shape(&s);
         p.query.double_sided = (int32_t)(i % 2);
         p.query.reach = i % 3 ? 0.0005 : 0.0;
         double hip[3] = {0.0, 0.0, 0.0};
@@ -264,7 +255,5 @@ TEST(soup_of_everything_stays_finite_and_on_the_mesh) {
                 assert_true(isfinite(p.contact.z) && fabs(p.contact.z) < 0.3);
             }
         }
-        shape_free(&copy);
-        probe_free(&p);
     }
 }

@@ -40,9 +40,8 @@ TEST(triangles_thinner_than_a_millionth_of_their_longest_edge_are_dropped) {
                 shape_set(&s, v, at[0], at[1] * (v < 3 ? 1.0 : 1e5), 0.0);
                 s.indices[v] = v;
             }
-            probe p = probe_shape(&s);
+            SCOPED_PROBE p = probe_shape(&s);
             assert_int_equal(p.mesh->facts.dropped, !is_felt);
-            probe_free(&p);
         }
     }
 }
@@ -63,9 +62,8 @@ TEST(visits_are_exceeded_where_triangles_crowd) {
         if (!is_crowded) {
             shape_free(&crowd);
         }
-        probe p = probe_shape(&both);
+        SCOPED_PROBE p = probe_shape(&both);
         assert_int_equal(knurl_mesh_exceeds_visits(p.mesh, 0.001, 1000), is_crowded);
-        probe_free(&p);
     }
 }
 
@@ -90,10 +88,9 @@ TEST(twins_are_dropped_and_reversed_ones_make_it_double_sided) {
     assert_int_equal(two.mesh->double_sided, 1);
     check_hierarchy(two.mesh);
     probe_free(&two);
-    probe one = probe_shape(&sheet);
+    SCOPED_PROBE one = probe_shape(&sheet);
     assert_int_equal(one.mesh->facts.dropped + one.mesh->facts.reversed_twins, 0);
     assert_int_equal(one.mesh->double_sided, 0);
-    probe_free(&one);
 }
 
 TEST(indices_may_be_left_out) {
@@ -120,14 +117,13 @@ TEST(doubled_vertices_are_welded_by_place) {
             *value = *value != 0.0f ? *value : -0.0f;
         }
     }
-    probe p = probe_shape(&sheet);
+    SCOPED_PROBE p = probe_shape(&sheet);
     uint32_t rims = 0;
     assert_int_equal(p.mesh->vertex_count, 9); /* of 24 */
     for (size_t i = 0; i < 24; i++) {
         rims += p.mesh->opposite[i] == KNURL_BOUNDARY;
     }
     assert_int_equal(rims, 8); /* the outer edges only: inside, the sheet hangs together */
-    probe_free(&p);
 }
 
 /* One field of a good mesh made bad; the message has to hold each of the words. */

@@ -30,7 +30,7 @@ TEST(hip_orbiting_inside_a_sphere_is_held_at_its_depth) {
     assert_true(sagitta > 1e-6 && sagitta < 5e-5);
     /* a HIP inside is held by a facet until its foot passes the facet's edge */
     const double angle = atan2(half_width, radius - sagitta - depth) + 1e-6;
-    probe p = probe_shape(&sphere);
+    SCOPED_PROBE p = probe_shape(&sphere);
     assert_false(probe_to(&p, 0.0, 0.0, radius + 0.001));
     for (int k = 0; k < 100000; k++) { /* a spiral of 100 turns over the whole ball: 0.19 m/s and less */
         const double turn = 2.0 * PI * k / 1000.0;
@@ -42,13 +42,12 @@ TEST(hip_orbiting_inside_a_sphere_is_held_at_its_depth) {
         CHECK_CLOSE(distance3(p.contact.proxy, p.query.hip), -p.contact.z, 1e-12);
     }
     assert_false(probe_to(&p, 0.0, 0.0, -radius - 0.001));
-    probe_free(&p);
 }
 
 TEST(hip_pressed_through_a_thin_wall_is_held_at_its_front) {
     const double half[3] = {0.04, 0.03, 0.0005};
     shape wall = shape_box(half, 0);
-    probe p = probe_shape(&wall);
+    SCOPED_PROBE p = probe_shape(&wall);
     assert_false(probe_to(&p, 0.01, 0.0, 0.002));
     for (int k = 0; k <= 100; k++) { /* to 3 mm below the front of 1 mm, and sideways all the while */
         const double depth = 3e-5 * k + 1e-6;
@@ -64,7 +63,6 @@ TEST(hip_pressed_through_a_thin_wall_is_held_at_its_front) {
     assert_true(p.contact.normal[2] > 0.999);
     assert_false(probe_to(&p, 0.02, 0.0, 0.001)); /* and off again in one tick, past both faces */
     assert_false(probe_to(&p, 0.02, 0.0, 0.002));
-    probe_free(&p);
 }
 
 /* The next position of a walk: random, but outwards if the contact is deeper than `depth`, as a hand is pushed
@@ -124,11 +122,10 @@ static void check_box(int inside_out, double (*near)(const double p[3]), double 
     static const double steps[] = {0.0001, 0.0005, 0.002}; /* to 2 m/s at 1 kHz */
     const double start[3] = {0.0, 0.0, z};
     shape box = shape_box(box_half, inside_out);
-    probe p = probe_shape(&box);
+    SCOPED_PROBE p = probe_shape(&box);
     for (size_t i = 0; i < COUNT_OF(steps); i++) {
         walk_near(&p, near, start, 0.003, 0.001, steps[i], 1e-8, 100000, seed + i);
     }
-    probe_free(&p);
 }
 
 TEST(box_holds_what_is_inside_and_nothing_else) {
@@ -141,7 +138,7 @@ TEST(corners_of_a_room_hold) {
 
 TEST(hip_sliding_round_an_edge_is_held_all_the_way) {
     shape box = shape_box(box_half, 0);
-    probe p = probe_shape(&box);
+    SCOPED_PROBE p = probe_shape(&box);
     const double depth = 0.001;
     (void)probe_to(&p, 0.0, 0.0, 0.011);
     for (int k = 0; k <= 1900; k++) { /* along the top, 1 mm deep */
@@ -152,12 +149,11 @@ TEST(hip_sliding_round_an_edge_is_held_all_the_way) {
         assert_true(probe_to(&p, box_half[0] - depth, 0.0, box_half[2] - depth - 1e-5 * k));
         assert_true(-p.contact.z >= depth - 1e-8);
     }
-    probe_free(&p);
 }
 
 TEST(hip_pressed_in_over_an_edge_is_held_by_the_nearer_face) {
     shape box = shape_box(box_half, 0);
-    probe p = probe_shape(&box);
+    SCOPED_PROBE p = probe_shape(&box);
     for (int k = 1; k <= 50; k++) {
         const double in[2] = {1e-5 * k, 2e-5 * (51 - k)};
         (void)probe_to(&p, box_half[0] + in[0], 0.0, box_half[2] + in[1]);
@@ -165,13 +161,12 @@ TEST(hip_pressed_in_over_an_edge_is_held_by_the_nearer_face) {
         assert_true(-p.contact.z >= fmin(in[0], in[1]) - 1e-8 && -p.contact.z <= fmax(in[0], in[1]) + 1e-8);
         assert_false(probe_to(&p, box_half[0] + in[0], 0.0, box_half[2] + in[1]));
     }
-    probe_free(&p);
 }
 
 TEST(distance_in_front_of_a_box_is_the_boxs) {
     const double reach = 0.0008;
     shape box = shape_box(box_half, 0);
-    probe p = probe_shape(&box);
+    SCOPED_PROBE p = probe_shape(&box);
     p.query.reach = reach;
     uint64_t seed = 5;
     int near = 0;
@@ -198,7 +193,6 @@ TEST(distance_in_front_of_a_box_is_the_boxs) {
         }
     }
     assert_in_range(near, 5000, 20000);
-    probe_free(&p);
 }
 
 /* body_torus() without its facets. */
@@ -214,11 +208,10 @@ TEST(ring_holds_what_is_inside_but_for_its_facets) {
     const uint32_t tube = 80;
     const double sagitta = 0.038 * (1.0 - cos(PI / around)) + 0.008 * (1.0 - cos(PI / tube)) + 1e-8;
     shape ring = body_torus(around, tube);
-    probe p = probe_shape(&ring);
+    SCOPED_PROBE p = probe_shape(&ring);
     for (size_t i = 0; i < COUNT_OF(steps); i++) {
         walk_near(&p, near_ring, start, 0.003, 0.001, steps[i], sagitta, 100000, 41 + i);
     }
-    probe_free(&p);
 }
 
 /* A V of two planes at right angles; solid below. */
@@ -237,11 +230,10 @@ TEST(groove_holds_at_its_bottom) {
     const double half[2] = {0.0625, 0.5};
     const double start[3] = {0.0, 0.0, 0.001};
     shape groove = shape_sheet(50, 50, half, groove_height);
-    probe p = probe_shape(&groove);
+    SCOPED_PROBE p = probe_shape(&groove);
     for (size_t i = 0; i < COUNT_OF(steps); i++) {
         walk_near(&p, near_groove, start, 0.002, 0.0007, steps[i], 1e-8, 20000, 51 + i);
     }
-    probe_free(&p);
 }
 
 /* The same walk over two meshes of the same triangles. */
@@ -275,17 +267,15 @@ TEST(seams_of_doubled_vertices_do_not_end_the_contact) {
     shape apart = body_torus(60, 20);
     shape_unweld(&apart);
     assert_int_equal(apart.vertex_count, 6 * welded.vertex_count);
-    probe a = probe_shape(&welded);
-    probe b = probe_shape(&apart);
+    SCOPED_PROBE a = probe_shape(&welded);
+    SCOPED_PROBE b = probe_shape(&apart);
     compare_on_walk(&a, &b, near_ring, start, 71);
-    probe_free(&a);
-    probe_free(&b);
 }
 
 TEST(curved_double_sided_sheet_holds_on_both_sides) {
     const double half[2] = {0.0625, 0.0625};
     shape sheet = shape_sheet(50, 50, half, groove_height);
-    probe p = probe_shape(&sheet);
+    SCOPED_PROBE p = probe_shape(&sheet);
     p.query.double_sided = 1;
     for (int side = -1; side <= 1; side += 2) {
         probe_forget(&p);
@@ -303,5 +293,4 @@ TEST(curved_double_sided_sheet_holds_on_both_sides) {
         }
         assert_false(probe_to(&p, 0.02, 0.0, 0.02 + 0.001 * side));
     }
-    probe_free(&p);
 }

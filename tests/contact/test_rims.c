@@ -6,7 +6,7 @@
 TEST(beyond_the_rim_of_an_open_sheet_the_contact_ends) {
     const double half[2] = {0.0625, 0.03125};
     shape sheet = shape_sheet(9, 7, half, NULL);
-    probe p = probe_shape(&sheet);
+    SCOPED_PROBE p = probe_shape(&sheet);
     for (int k = 0; k < 24; k++) { /* out over edges and corners, all round */
         const double to[2] = {half[0] * 1.5 * cos(2.0 * PI * k / 24.0), half[1] * 1.5 * sin(2.0 * PI * k / 24.0)};
         probe_forget(&p);
@@ -19,24 +19,22 @@ TEST(beyond_the_rim_of_an_open_sheet_the_contact_ends) {
         }
         assert_false(probe_to(&p, 0.0, 0.0, -0.001)); /* and back under it: nothing there */
     }
-    probe_free(&p);
 }
 
 TEST(nothing_in_front_of_a_rim_is_in_reach) {
     const double half[2] = {0.0625, 0.03125};
     shape sheet = shape_sheet(9, 7, half, NULL);
-    probe p = probe_shape(&sheet);
+    SCOPED_PROBE p = probe_shape(&sheet);
     p.query.reach = 0.001;
     assert_true(probe_to(&p, 0.0624, 0.0, 0.0005));
     assert_false(probe_to(&p, 0.0626, 0.0, 0.0005));
     assert_false(probe_to(&p, 0.0626, 0.0, 0.0));
-    probe_free(&p);
 }
 
 /* Two sheets that share a border, along which one has eight times as many vertices: rims in the middle of a surface. */
 static shape shape_with_t_junctions(void) {
-    shape coarse = shape_sheet(4, 4, (const double[2]){0.03125, 0.03125}, NULL);
-    shape fine = shape_sheet(8, 32, (const double[2]){0.03125, 0.03125}, NULL);
+    SCOPED_SHAPE coarse = shape_sheet(4, 4, (const double[2]){0.03125, 0.03125}, NULL);
+    SCOPED_SHAPE fine = shape_sheet(8, 32, (const double[2]){0.03125, 0.03125}, NULL);
     shape both = shape_new(coarse.vertex_count + fine.vertex_count, coarse.index_count + fine.index_count, 0);
     for (uint32_t v = 0; v < both.vertex_count; v++) {
         const int left = v < coarse.vertex_count;
@@ -48,14 +46,12 @@ static shape shape_with_t_junctions(void) {
         both.indices[i] =
             i < coarse.index_count ? coarse.indices[i] : fine.indices[i - coarse.index_count] + coarse.vertex_count;
     }
-    shape_free(&coarse);
-    shape_free(&fine);
     return both;
 }
 
 TEST(border_of_t_junctions_is_slid_over) {
     shape sheets = shape_with_t_junctions();
-    probe p = probe_shape(&sheets);
+    SCOPED_PROBE p = probe_shape(&sheets);
     for (int way = -1; way <= 1; way += 2) {
         for (int line = -30; line <= 30; line++) {
             probe_forget(&p);
@@ -66,7 +62,6 @@ TEST(border_of_t_junctions_is_slid_over) {
             }
         }
     }
-    probe_free(&p);
 }
 
 /* A tall spike of three faces, one of them cut into many slivers: at its tip the slivers must not outvote the others.
@@ -94,7 +89,7 @@ TEST(tip_of_a_spike_is_reached_from_all_round) {
     memcpy(&spike.indices[at], (const uint32_t[3]){0, SLIVERS + 1, SLIVERS + 2}, 3 * sizeof(uint32_t));
     memcpy(&spike.indices[at + 3], (const uint32_t[3]){0, SLIVERS + 2, 1}, 3 * sizeof(uint32_t));
     memcpy(&spike.indices[at + 6], (const uint32_t[3]){1, SLIVERS + 2, SLIVERS + 1}, 3 * sizeof(uint32_t));
-    probe p = probe_shape(&spike);
+    SCOPED_PROBE p = probe_shape(&spike);
     p.query.reach = 0.001;
     for (int k = 0; k < 360; k++) { /* as far down as the tip is still the nearest point, all around */
         const double up = 0.14;     /* the faces lean by 0.067, the edges by 0.13 */
@@ -105,7 +100,6 @@ TEST(tip_of_a_spike_is_reached_from_all_round) {
         CHECK_CLOSE(p.contact.z, distance, 1e-9);
         CHECK_CLOSE(dot3(p.contact.normal, hip), distance, 1e-9);
     }
-    probe_free(&p);
 }
 
 /* The whole disc, and one from which a slice of a degree was cut: its hub is walked round from both sides of the cut.
@@ -121,7 +115,7 @@ static void walk_across_hub(uint32_t cut) {
             memcpy(&disc.indices[3 * (size_t)i], corners, sizeof corners);
         }
     }
-    probe p = probe_shape(&disc);
+    SCOPED_PROBE p = probe_shape(&disc);
     for (int turn = 0; turn < 40; turn++) {
         const double angle = 0.1 + turn;
         probe_forget(&p);
@@ -132,7 +126,6 @@ static void walk_across_hub(uint32_t cut) {
             CHECK_CLOSE(-p.contact.z, 0.001, 1e-8);
         }
     }
-    probe_free(&p);
 }
 
 TEST(hub_of_very_many_triangles_is_walked_across) {

@@ -11,7 +11,7 @@ static double steep_height(double x, double y) {
 TEST(groove_crossed_in_one_tick_holds_on_its_other_side) {
     const double half[2] = {0.0625, 0.0625};
     shape groove = shape_sheet(50, 50, half, steep_height);
-    probe p = probe_shape(&groove);
+    SCOPED_PROBE p = probe_shape(&groove);
     for (int k = 0; k < 20; k++) { /* 1 m/s at 1 kHz, up to 0.19 mm deep */
         const double x = 0.0005;
         const double depth = 1e-5 * k + 1e-6;
@@ -23,7 +23,6 @@ TEST(groove_crossed_in_one_tick_holds_on_its_other_side) {
         CHECK_CLOSE(-p.contact.z, depth, 1e-8);
         assert_true(p.contact.normal[0] < 0.0);
     }
-    probe_free(&p);
 }
 
 #define CELLS   60
@@ -157,11 +156,10 @@ TEST(strokes_over_teeth_never_lose_the_tooth_they_are_in) {
     for (size_t i = 0; i < COUNT_OF(amplitudes); i++) {
         teeth_amplitude = amplitudes[i];
         shape teeth = shape_sheet(500, 2, half, teeth_height);
-        probe p = probe_shape(&teeth);
+        SCOPED_PROBE p = probe_shape(&teeth);
         for (size_t k = 0; k < 5 * COUNT_OF(steps); k++) {
             drag_over_teeth(&p, steps[k % COUNT_OF(steps)], 81 + k);
         }
-        probe_free(&p);
     }
 }
 
@@ -180,7 +178,7 @@ TEST(sheet_behind_which_the_hip_lifts_off_does_not_hold_it) {
         both.indices[i] = sheet.indices[i % sheet.index_count] + (i < sheet.index_count ? 0 : sheet.vertex_count);
     }
     shape_free(&sheet);
-    probe p = probe_shape(&both);
+    SCOPED_PROBE p = probe_shape(&both);
     for (int k = 1; k < 20; k++) {
         probe_forget(&p);
         assert_false(probe_to(&p, 0.001, 0.002, 0.0004));
@@ -192,5 +190,4 @@ TEST(sheet_behind_which_the_hip_lifts_off_does_not_hold_it) {
     assert_false(probe_to(&p, 0.001, 0.002, 0.0015));
     assert_true(probe_to(&p, 0.001, 0.002, -0.0005)); /* through both at once: held by the first it met */
     CHECK_CLOSE(p.contact.z, -0.0015, 1e-8);
-    probe_free(&p);
 }

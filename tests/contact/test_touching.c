@@ -84,7 +84,7 @@ static int do_touch(const triangle *a, const triangle *b, double seam) {
 
 /* Compares the count with that of all pairs, and frees the shape. */
 static uint32_t check_count(shape *s) {
-    probe p = probe_shape(s);
+    SCOPED_PROBE p = probe_shape(s);
     const uint32_t count = p.mesh->triangle_count;
     triangle *all = calloc(count, sizeof *all);
     uint32_t expected = 0;
@@ -116,7 +116,6 @@ static uint32_t check_count(shape *s) {
     assert_int_equal(knurl_mesh_count_touching(p.mesh), expected);
     assert_int_equal(p.mesh->facts.touching, expected);
     free(all);
-    probe_free(&p);
     return expected;
 }
 
@@ -212,10 +211,9 @@ TEST(the_seam_grows_with_the_size_and_with_the_distance_from_the_origin) {
         for (uint32_t v = 0; v < box.vertex_count; v++) {
             box.positions[3 * (size_t)v + 1] += (float)sizes[i][1];
         }
-        probe p = probe_shape(&box);
+        SCOPED_PROBE p = probe_shape(&box);
         const double farthest = fmax(half[0], fabs(sizes[i][1]) + half[1]);
         const double expected = fmax(1e-7, 2e-6 * length3(half)) + farthest / 4194304.0;
         CHECK_CLOSE(p.mesh->facts.seam, expected, 1e-4 * expected);
-        probe_free(&p);
     }
 }

@@ -41,9 +41,9 @@ static void say(const char *what, const outcome *out) {
 
 /* At random over a closed body from outside, pushed outwards if deeper than `depth`. */
 static outcome wander(shape *s, const double start[3], double depth, double step, int ticks, uint64_t seed) {
-    shape copy = body_copy(s);
+    SCOPED_SHAPE copy = body_copy(s);
     oracle o = oracle_make(&copy);
-    probe p = probe_shape(s);
+    SCOPED_PROBE p = probe_shape(s);
     outcome out = {ticks, 0, 0, 0.0, 0.0};
     double drift[3];
     double from[3] = {start[0], start[1], start[2]};
@@ -79,8 +79,6 @@ static outcome wander(shape *s, const double start[3], double depth, double step
     }
     assert_in_range(out.held, ticks / 10, ticks);
     oracle_free(&o);
-    shape_free(&copy);
-    probe_free(&p);
     return out;
 }
 
@@ -147,9 +145,9 @@ static double height_at(oracle *o, double x, double y) {
 
 /* To and fro along x, slowly across, `press` below the facets. */
 static outcome scan(shape *s, double reach, double press, double speed, int ticks) {
-    shape copy = body_copy(s);
+    SCOPED_SHAPE copy = body_copy(s);
     oracle o = oracle_make(&copy);
-    probe p = probe_shape(s);
+    SCOPED_PROBE p = probe_shape(s);
     outcome out = {ticks, 0, 0, 0.0, 0.0};
     double x = -reach + 1e-7 * PI; /* not on an edge, which both of an oracle's triangles may reject */
     double way = speed * 0.001;
@@ -164,8 +162,6 @@ static outcome scan(shape *s, double reach, double press, double speed, int tick
         check_proxy(&p, &o, &out);
     }
     oracle_free(&o);
-    shape_free(&copy);
-    probe_free(&p);
     return out;
 }
 
@@ -261,8 +257,8 @@ TEST(the_force_does_not_depend_on_the_tessellation) {
     const double bound = h * h / 8.0 * (kx + ky + 2.0 * kxy);
     shape a = body_wavy(coarse_n);
     shape b = body_wavy(224);
-    probe coarse = probe_shape(&a);
-    probe fine = probe_shape(&b);
+    SCOPED_PROBE coarse = probe_shape(&a);
+    SCOPED_PROBE fine = probe_shape(&b);
     double worst = 0.0;
     for (size_t i = 0; i < COUNT_OF(speeds); i++) {
         probe_forget(&coarse);
@@ -282,8 +278,6 @@ TEST(the_force_does_not_depend_on_the_tessellation) {
     printf("tessellation: 8.7k and 100k triangles differ by %.3g mm at most, chord error %.3g mm\n", 1e3 * worst,
            1e3 * bound);
     assert_true(worst <= bound);
-    probe_free(&coarse);
-    probe_free(&fine);
 }
 
 static int report(void **state) {

@@ -353,7 +353,7 @@ TEST(at_rest_on_an_edge_of_dense_uvs_as_well) {
 /* 1 mm/s over 20 ridges and back in whole counts, every third of which flickers: 80 edges. */
 static int count_toggles(const shape *mesh, int32_t method) {
     surface_parts parts = grating_on(mesh, method);
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     double last = 0.0;
     int toggles = 0;
     configure_counted(scene);
@@ -366,7 +366,6 @@ static int count_toggles(const shape *mesh, int32_t method) {
         toggles += out.height * last < 0.0;
         last = out.height;
     }
-    knurl_scene_destroy(scene);
     return toggles;
 }
 

@@ -37,9 +37,8 @@ static knurl_scene *scene_in(setting *s) {
 }
 
 static knurl_surface_check check_of(setting *s) {
-    knurl_scene *scene = scene_in(s);
+    SCOPED_SCENE *scene = scene_in(s);
     const knurl_surface_check check = first_check(scene);
-    knurl_scene_destroy(scene);
     return check;
 }
 

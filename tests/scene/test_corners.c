@@ -149,9 +149,9 @@ static shape groove(double rise, int parts) {
 /* Presses from above to 2 mm below the groove's bottom edge; how many fell through. */
 static int press_groove(double rise, int parts) {
     int lost = 0;
-    shape s = groove(rise, parts);
+    SCOPED_SHAPE s = groove(rise, parts);
     surface_parts mesh = surface_shape(&s);
-    knurl_scene *scene = scene_of(&mesh);
+    SCOPED_SCENE *scene = scene_of(&mesh);
     for (int line = 0; line < 210; line++) {
         const double y = 0.00023 * (line - 105) + 3e-6;
         int fell = 0;
@@ -164,8 +164,6 @@ static int press_groove(double rise, int parts) {
         lost += fell;
         (void)tick_at(scene, 0.0, y, 0.02);
     }
-    knurl_scene_destroy(scene);
-    shape_free(&s);
     return lost;
 }
 
@@ -222,7 +220,7 @@ static int press_shared_edge(uint64_t *seed) {
         shapes[i] = p.s;
         parts[i] = surface_shape(&shapes[i]);
     }
-    knurl_scene *scene = scene_with(parts, 2, 0);
+    SCOPED_SCENE *scene = scene_with(parts, 2, 0);
     double at[3];
     const double share = random_between(seed, 0.1, 0.9);
     for (int i = 0; i < 3; i++) {
@@ -234,7 +232,6 @@ static int press_shared_edge(uint64_t *seed) {
     for (int k = 3; k >= -1; k--) {
         out = tick_at(scene, at[0], at[1], at[2] + (k + 0.5) * speed);
     }
-    knurl_scene_destroy(scene);
     shape_free(&shapes[0]);
     shape_free(&shapes[1]);
     return out.contacts > 0 && out.force[2] > 0.0;

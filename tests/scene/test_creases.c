@@ -64,7 +64,7 @@ TEST(a_crease_holds_by_the_same_force_however_it_is_cut_and_however_sharp_it_is)
     for (int degrees = 5; degrees <= 175; degrees += 5) {
         for (int cut = 0; cut < CUTS; cut++) {
             const double half = degrees * acos(-1.0) / 360.0;
-            knurl_scene *scene = crease(cut, 2.0 * half, K, -1);
+            SCOPED_SCENE *scene = crease(cut, 2.0 * half, K, -1);
             const double aside = fmin(0.9 * DEPTH / tan(half), 0.0015);
             for (int k = 0; k <= 420; k++) {
                 (void)tick_at(scene, 0.0, 0.0013, 0.04 - 0.0001 * k);
@@ -79,7 +79,6 @@ TEST(a_crease_holds_by_the_same_force_however_it_is_cut_and_however_sharp_it_is)
                              -K * x, K * DEPTH, out.force[0], out.force[1], out.force[2]);
                 }
             }
-            knurl_scene_destroy(scene);
         }
     }
 }
@@ -87,14 +86,13 @@ TEST(a_crease_holds_by_the_same_force_however_it_is_cut_and_however_sharp_it_is)
 /* Walls of different stiffness, nearly parallel: the force is at most that of the stiffer one alone. */
 TEST(a_sharp_crease_of_a_soft_and_a_hard_wall_does_not_push_aside) {
     for (int degrees = 5; degrees < 90; degrees += 5) {
-        knurl_scene *scene = crease(TWO_PLANES, degrees * acos(-1.0) / 180.0, 0.25 * K, -1);
+        SCOPED_SCENE *scene = crease(TWO_PLANES, degrees * acos(-1.0) / 180.0, 0.25 * K, -1);
         knurl_tick_output out = {0};
         for (int k = 0; k <= 420; k++) {
             out = tick_at(scene, 0.0, 0.0013, 0.04 - 0.0001 * k);
         }
         assert_true(out.force[2] > 0.25 * K * DEPTH && out.force[2] < K * DEPTH);
         assert_true(fabs(out.force[0]) < 0.75 * K * DEPTH);
-        knurl_scene_destroy(scene);
     }
 }
 
@@ -187,7 +185,7 @@ static double largest_step(knurl_scene *scene, const double from[3], const doubl
 }
 
 TEST(ridges_of_a_wall_begin_without_a_step_for_a_hip_that_a_floor_holds) {
-    knurl_scene *scene = floor_and_wall();
+    SCOPED_SCENE *scene = floor_and_wall();
     const double above[3] = {0.003, 0.0, 0.002}, beside[3] = {0.003, 0.0, -0.001}, within[3] = {-0.001, 0.0, -0.001};
     const double before[3] = {1e-4, 0.0, 0.002}, below[3] = {1e-4, 0.0, -0.001};
     double force[3];
@@ -199,5 +197,4 @@ TEST(ridges_of_a_wall_begin_without_a_step_for_a_hip_that_a_floor_holds) {
     (void)largest_step(scene, above, before, force);
     assert_true(fabs(force[0] - K * (HEIGHT - 1e-4)) < 1e-6); /* the crest alone */
     assert_true(largest_step(scene, before, below, force) < 2.0 * K * 2e-6);
-    knurl_scene_destroy(scene);
 }

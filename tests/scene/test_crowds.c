@@ -147,7 +147,7 @@ TEST(below_a_tile_2_mm_higher_than_its_neighbour_the_hip_passes_and_contact_ends
 /* Two planes with a crack between them; the HIP is dragged from one to the other and spends `ticks` ticks above the
  * crack. Returns the surface that holds it there, if the second one holds it then. */
 static uint32_t cross_crack(double crack, int ticks, uint32_t held) {
-    knurl_scene *scene = empty_scene(1);
+    SCOPED_SCENE *scene = empty_scene(1);
     surface_parts parts = surface_plane();
     configure_plainly(scene, 0);
     parts.plane.half_extents[0] = parts.plane.half_extents[1] = 0.01;
@@ -163,7 +163,6 @@ static uint32_t cross_crack(double crack, int ticks, uint32_t held) {
         CHECK_VECTOR(between.force, 0.0, 0.0, held ? K * DEPTH : 0.0, 1e-12L);
     }
     const uint32_t contacts = tick_at(scene, STEP, 0.0, -DEPTH).contacts;
-    knurl_scene_destroy(scene);
     return contacts;
 }
 

@@ -28,28 +28,26 @@ TEST(a_gain_is_straight_in_log_frequency_between_pairs_and_constant_beyond) {
     static const knurl_gain late[] = {{192.0, 0.4}, {320.0, 0.1}}; /* both in the table */
     for (int i = 0; i < 2; i++) {
         const double first = i ? 192.0 : 100.0, last = i ? 320.0 : 300.0;
-        knurl_scene *scene = i ? even_scene(late, COUNT_OF(late)) : even_scene(falling, COUNT_OF(falling));
+        SCOPED_SCENE *scene = i ? even_scene(late, COUNT_OF(late)) : even_scene(falling, COUNT_OF(falling));
         for (double hz = 100.0; hz < 480.0; hz *= 1.013) {
             const double share = fmax(0.0, fmin(1.0, log(hz / first) / log(last / first)));
             CHECK_CLOSE(gain_at(scene, hz), 0.4 + (0.1 - 0.4) * share, 3e-3);
         }
-        knurl_scene_destroy(scene);
     }
 }
 
 TEST(without_gains_nothing_changes_and_they_stay_until_they_are_taken_off) {
-    knurl_scene *scene = even_scene(NULL, 0);
+    SCOPED_SCENE *scene = even_scene(NULL, 0);
     CHECK_CLOSE(gain_at(scene, 200.0), 1.0, BAND_EXACT);
     assert_int_equal(knurl_scene_set_gains(scene, 0, falling, 2), KNURL_OK);
     configure_plainly(scene, 0);
     CHECK_CLOSE(gain_at(scene, 200.0), 0.4, BAND_EXACT);
     assert_int_equal(knurl_scene_set_gains(scene, 0, NULL, 0), KNURL_OK);
     CHECK_CLOSE(gain_at(scene, 200.0), 1.0, BAND_EXACT);
-    knurl_scene_destroy(scene);
 }
 
 TEST(a_check_tells_the_lowest_gain_and_where_the_amplitude_is_lowered) {
-    knurl_scene *scene = even_scene(falling, COUNT_OF(falling));
+    SCOPED_SCENE *scene = even_scene(falling, COUNT_OF(falling));
     knurl_surface_check check = first_check(scene);
     CHECK_CLOSE(check.lowest_gain, 0.1, 1e-12L);
     CHECK_SAME(check.lowered_hz[0], 100.0);
@@ -58,7 +56,6 @@ TEST(a_check_tells_the_lowest_gain_and_where_the_amplitude_is_lowered) {
     check = first_check(scene);
     CHECK_SAME(check.lowest_gain, 1.0);
     CHECK_SAME(check.lowered_hz[1], 0.0);
-    knurl_scene_destroy(scene);
 }
 
 TEST(gains_that_are_wrong_are_refused_by_number_and_change_nothing) {
@@ -71,7 +68,7 @@ TEST(gains_that_are_wrong_are_refused_by_number_and_change_nothing) {
                {{{NAN, 0.5}, {10.0, 0.5}}, "gain 0: expected frequencies"},
                {{{10.0, 1.01}, {20.0, 0.5}}, "gain 0: expected 0 to 1, found 1.01"},
                {{{10.0, 1.0}, {20.0, NAN}}, "gain 1: expected 0 to 1"}};
-    knurl_scene *scene = even_scene(falling, 2);
+    SCOPED_SCENE *scene = even_scene(falling, 2);
     for (size_t i = 0; i < COUNT_OF(bad); i++) {
         assert_int_equal(knurl_scene_set_gains(scene, 0, bad[i].pairs, 2), KNURL_ERROR_ARGUMENT);
         check_message(bad[i].sentence);
@@ -79,5 +76,4 @@ TEST(gains_that_are_wrong_are_refused_by_number_and_change_nothing) {
     }
     assert_int_equal(knurl_scene_set_gains(scene, 7, NULL, 0), KNURL_ERROR_ARGUMENT);
     assert_int_equal(knurl_scene_set_gains(NULL, 0, NULL, 0), KNURL_ERROR_ARGUMENT);
-    knurl_scene_destroy(scene);
 }

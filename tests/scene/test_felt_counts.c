@@ -6,7 +6,7 @@
 
 /* 1 mm deep along the plane at a steady speed, for so many metres at 1 kHz. */
 static knurl_hip_counts stroke(surface_parts *parts, double vx, double vy, double seconds) {
-    knurl_scene *scene = scene_of(parts);
+    SCOPED_SCENE *scene = scene_of(parts);
     const double velocity[3] = {vx, vy, 0.0};
     const int ticks = (int)(1000.0 * seconds + 0.5);
     for (int k = 0; k < ticks; k++) {
@@ -15,7 +15,6 @@ static knurl_hip_counts stroke(surface_parts *parts, double vx, double vy, doubl
         (void)tick_moving(scene, position, velocity);
     }
     const knurl_hip_counts counts = counts_of(scene);
-    knurl_scene_destroy(scene);
     return counts;
 }
 
@@ -108,12 +107,11 @@ static shape uneven_sheet(double ratio) {
 }
 
 static knurl_surface_check check_of(surface_parts *parts, knurl_surface_info *info) {
-    knurl_scene *scene = empty_scene(1);
+    SCOPED_SCENE *scene = empty_scene(1);
     (void)add_surface(scene, parts);
     assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
     const knurl_surface_check check = first_check(scene);
     *info = first_info(scene);
-    knurl_scene_destroy(scene);
     return check;
 }
 

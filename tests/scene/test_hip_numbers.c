@@ -81,7 +81,7 @@ static double check_motors(double rate, double max_force, double continuous_forc
     d.max_force = max_force;
     d.continuous_force = continuous_force;
     d.heat_time = heat_time;
-    knurl_scene *scene = scene_with_hip(&parts, &d);
+    SCOPED_SCENE *scene = scene_with_hip(&parts, &d);
     for (int tick = 0; tick < 1000; tick++) {
         const knurl_tick_output out = tick_at(scene, 0.0, 0.0, tick == 0 ? 1.0 : -1.0);
         const knurl_hip_counts counts = counts_of(scene);
@@ -90,7 +90,6 @@ static double check_motors(double rate, double max_force, double continuous_forc
         assert_true(max_force <= continuous_force || counts.heat <= 1.0);
         force = out.device_force[2];
     }
-    knurl_scene_destroy(scene);
     return force;
 }
 

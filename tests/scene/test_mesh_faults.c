@@ -9,14 +9,13 @@
 /* A sphere (R 30 mm, 1,280 triangles) with reversed copies of triangles 0, step, 2 step, ..., before or after the
  * others. */
 static shape sphere_with_twins(uint32_t twins, uint32_t step, int first) {
-    shape sphere = shape_sphere(0.03, 3);
+    SCOPED_SHAPE sphere = shape_sphere(0.03, 3);
     shape s = shape_new(sphere.vertex_count, sphere.index_count + 3 * twins, 0);
     memcpy(s.positions, sphere.positions, sphere.vertex_count * 3 * sizeof(float));
     memcpy(&s.indices[first ? 3 * twins : 0], sphere.indices, sphere.index_count * sizeof(uint32_t));
     for (uint32_t i = 0; i < 3 * twins; i++) {
         s.indices[(first ? 0 : sphere.index_count) + i] = sphere.indices[3 * step * (i / 3) + 2 - i % 3];
     }
-    shape_free(&sphere);
     return s;
 }
 
@@ -90,13 +89,12 @@ static shape plate(void) {
 
 /* Half cycles played on a stroke of 60 mm along x. */
 static double play_60_mm(surface_parts *parts) {
-    knurl_scene *scene = scene_of(parts);
+    SCOPED_SCENE *scene = scene_of(parts);
     for (int k = 0; k <= 600; k++) {
         const double x = 0.0001 * k - 0.03, y = 0.0013;
         (void)tick_at(scene, x, y, bent(x, y) - 0.001);
     }
     const knurl_hip_counts counts = counts_of(scene);
-    knurl_scene_destroy(scene);
     return (double)counts.half_cycles_played;
 }
 

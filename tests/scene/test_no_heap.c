@@ -397,9 +397,8 @@ static int run_strictly(knurl_scene *scene, const stroke *from, int ask_for_some
 }
 
 static int kernel_is_strict(void) {
-    knurl_scene *scene = make_scene(&scenes[0]);
+    SCOPED_SCENE *scene = make_scene(&scenes[0]);
     const int status = run_strictly(scene, &at_start, 0);
-    knurl_scene_destroy(scene);
     return !WIFEXITED(status) || WEXITSTATUS(status) != REFUSED;
 }
 

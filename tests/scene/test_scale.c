@@ -142,9 +142,9 @@ static void print_difference(int k, const knurl_tick_output *a, const knurl_tick
 
 /* Two scenes with different reductions, edited and stroked alike. Returns the ticks in contact. */
 static int compare_models(uint32_t model, uint64_t seed, int ticks, int edit_every) {
-    shape s = shape_sheet(2, 2, (const double[2]){0.006, 0.005}, bowl);
-    knurl_scene *reduced = many_scene(0, 1);
-    knurl_scene *full = many_scene(model, 1);
+    SCOPED_SHAPE s = shape_sheet(2, 2, (const double[2]){0.006, 0.005}, bowl);
+    SCOPED_SCENE *reduced = many_scene(0, 1);
+    SCOPED_SCENE *full = many_scene(model, 1);
     wanderer w = {{0.3, 0.4, 0.006}, {0.0, 0.0, -0.1}, 0};
     int touched = 0;
     lay_tiles(reduced, seed, &s);
@@ -167,9 +167,6 @@ static int compare_models(uint32_t model, uint64_t seed, int ticks, int edit_eve
         assert_true(isfinite(length3(a.force)) && a.contacts <= KNURL_CONTACTS_MAX);
         touched += a.contacts > 0;
     }
-    knurl_scene_destroy(reduced);
-    knurl_scene_destroy(full);
-    shape_free(&s);
     return touched;
 }
 

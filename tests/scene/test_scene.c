@@ -14,7 +14,7 @@ static const double NO_NUMBERS[] = {(double)NAN, (double)INFINITY, (double)-INFI
     } while (0)
 
 TEST(life_goes_from_create_to_tick) {
-    knurl_scene *scene = NULL;
+    SCOPED_SCENE *scene = NULL;
     assert_int_equal(knurl_scene_create(NULL, &scene), KNURL_OK);
     assert_int_equal(knurl_scene_get_surface_count(scene), 0);
     assert_true(knurl_scene_get_surface(scene, 0) == 0);
@@ -35,7 +35,6 @@ TEST(life_goes_from_create_to_tick) {
     assert_string_equal(name, "");
     assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
     assert_true((tick_at(scene, 0.0, 0.0, -0.001).flags & KNURL_TICK_CONTACT) != 0);
-    knurl_scene_destroy(scene);
     knurl_scene_destroy(NULL);
 }
 
@@ -137,10 +136,9 @@ TEST(an_id_of_another_scene_is_stale_and_says_so) {
     }
     assert_int_equal(knurl_scene_remove_surface(scenes[0], ids[0]), KNURL_OK);
     knurl_scene_destroy(scenes[0]);
-    knurl_scene *after = empty_scene(1); /* may have its memory, but not its ids */
+    SCOPED_SCENE *after = empty_scene(1); /* may have its memory, but not its ids */
     (void)add_surface(after, &parts);
     CHECK_REFUSED(knurl_scene_remove_surface(after, ids[0]), KNURL_ERROR_STALE_ID, parts);
-    knurl_scene_destroy(after);
     knurl_scene_destroy(scenes[1]);
 }
 

@@ -19,7 +19,7 @@ static double uneven(double x, double y) {
 static shape uneven_sheet(uint64_t seed, double height, double offset) {
     uneven_seed = seed;
     unevenness = height;
-    shape sheet = shape_sheet(8, 8, (const double[2]){0.02, 0.02}, uneven);
+    SCOPED_SHAPE sheet = shape_sheet(8, 8, (const double[2]){0.02, 0.02}, uneven);
     patch p = patch_new(sheet.index_count / 3 + 1);
     const uint32_t cut = 2 * (8 * 4 + 4); /* the first triangle of the quad at (4, 4): its edge from 0 to 1 is split */
     for (uint32_t i = 0; i < sheet.index_count / 3; i++) {
@@ -34,7 +34,6 @@ static shape uneven_sheet(uint64_t seed, double height, double offset) {
             add_triangle(&p, c[0], c[1], c[2]);
         }
     }
-    shape_free(&sheet);
     return p.s;
 }
 
@@ -62,7 +61,7 @@ static double height_at(const shape *s, double x, double y) {
 static int press_uneven(const shape *s, uint64_t seed, int presses) {
     int lost = 0;
     surface_parts parts = surface_shape(s);
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     for (int i = 0; i < presses; i++) {
         double at[2] = {0.0025 + random_between(&seed, -0.003, 0.003), random_between(&seed, -0.001, 0.001)};
         const double way[2] = {random_between(&seed, -1e-4, 1e-4), random_between(&seed, -1e-4, 1e-4)};
@@ -79,7 +78,6 @@ static int press_uneven(const shape *s, uint64_t seed, int presses) {
         lost += fell;
         (void)tick_at(scene, at[0], at[1], 0.003);
     }
-    knurl_scene_destroy(scene);
     return lost;
 }
 

@@ -40,7 +40,7 @@ static double turned(double at, double step, double low, double high) {
 static stroke stroke_over(const smooth_mesh *m, int how, const smooth_patch *p) {
     surface_parts parts = smooth_surface(m, how);
     parts.material.stiffness = K;
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     stroke s = {0};
     double last[3] = {0.0, 0.0, 0.0};
     double u = 0.7 * p->low[0] + 0.3 * p->high[0], v = 0.72 * p->low[1] + 0.28 * p->high[1];
@@ -70,7 +70,6 @@ static stroke stroke_over(const smooth_mesh *m, int how, const smooth_patch *p) 
         v += dv * WAY / way;
     }
     s.ticks = ticks;
-    knurl_scene_destroy(scene);
     return s;
 }
 
@@ -191,7 +190,7 @@ static knurl_hip_counts count_round(const smooth_mesh *m, int is_smooth, int32_t
     knurl_tick_output out;
     parts.material.stiffness = K;
     set_grating(&parts, method, 1000.0, 0.0, 0.0001);
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     for (int k = 60; k > 0; k--) {
         (void)tick_at(scene, (0.019 + 1e-4 * k) * cos(0.3), (0.019 + 1e-4 * k) * sin(0.3), 0.001);
     }
@@ -200,7 +199,6 @@ static knurl_hip_counts count_round(const smooth_mesh *m, int is_smooth, int32_t
     }
     memset(&counts, 0, sizeof counts);
     assert_int_equal(knurl_scene_get_tick(scene, 0, &out, &counts), KNURL_OK);
-    knurl_scene_destroy(scene);
     return counts;
 }
 

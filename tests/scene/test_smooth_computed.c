@@ -35,7 +35,7 @@ TEST(sides_become_round_from_nine_on_and_ends_keep_their_edges) {
     for (size_t k = 0; k < COUNT_OF(sides); k++) {
         const uint32_t n = sides[k];
         const double turn = 2.0 * SMOOTH_PI / n;
-        shape s = make_bar(n);
+        SCOPED_SHAPE s = make_bar(n);
         const knurl_surface_info info = info_as(&s, NULL, KNURL_SMOOTH_ON);
         const int is_round = n >= 9;
         assert_int_equal(info.triangle_count, 4 * n - 4);
@@ -48,12 +48,11 @@ TEST(sides_become_round_from_nine_on_and_ends_keep_their_edges) {
         if (is_round) { /* its sides are a cylinder's patches: they bulge by nearly its sagitta */
             CHECK_CLOSE(info.bulge, 4.0 / 3.0 * 0.02 * (1.0 - cos(turn / 2.0)), 0.05 * 0.02 * (1.0 - cos(turn / 2.0)));
         }
-        shape_free(&s);
     }
 }
 
 TEST(angles_at_edges_are_means_by_length) {
-    shape s = make_bar(8); /* 16 edges round the ends at 90 degrees, 8 along the sides at 45, diagonals at 0 */
+    SCOPED_SHAPE s = make_bar(8); /* 16 edges round the ends at 90 degrees, 8 along the sides at 45, diagonals at 0 */
     const knurl_surface_info info = info_as(&s, NULL, KNURL_SMOOTH_AUTO);
     const double side = 2.0 * 0.02 * sin(SMOOTH_PI / 8.0), diagonal = hypot(side, 0.02);
     double ends = 0.0; /* both ends are fans from their first corner, with five diagonals */
@@ -64,13 +63,12 @@ TEST(angles_at_edges_are_means_by_length) {
     const double mean = (16.0 * side * SMOOTH_PI / 2.0 + 8.0 * 0.02 * SMOOTH_PI / 4.0) / length;
     CHECK_CLOSE(info.facet_angle[0], mean, 1e-4);
     CHECK_CLOSE(info.felt_angle[0], mean, 1e-4);
-    shape_free(&s);
 }
 
 /* A cone's tip cannot be smooth: its normals would be over 60 degrees off its sides. It stays a tip, and nothing is
  * wrong with the file. */
 TEST(a_cones_tip_stays_and_is_no_fault) {
-    shape s = shape_new(17, 3 * 16, 0);
+    SCOPED_SHAPE s = shape_new(17, 3 * 16, 0);
     shape_set(&s, 16, 0.0, 0.0, 0.04);
     for (uint32_t i = 0; i < 16; i++) {
         const uint32_t corners[3] = {i, (i + 1) % 16, 16};
@@ -83,7 +81,6 @@ TEST(a_cones_tip_stays_and_is_no_fault) {
     SCOPED_SCENE *scene = scene_of(&parts);
     assert_int_equal(first_info(scene).bad_normals, 16);
     assert_false(first_check(scene).exceeded & KNURL_LIMIT_NORMALS);
-    shape_free(&s);
 }
 
 TEST(smoothness_is_as_asked_for) {

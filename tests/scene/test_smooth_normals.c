@@ -18,7 +18,7 @@ static uint32_t bad_with(double x, double y, double z) {
     for (int axis = 0; axis < 3; axis++) {
         m.normals[axis] = (float)normal[axis];
     }
-    knurl_scene *scene = scene_with(&m);
+    SCOPED_SCENE *scene = scene_with(&m);
     const knurl_surface_info info = first_info(scene);
     double p[3], n[3];
     shape_get(&m.s, 0, p);
@@ -33,7 +33,6 @@ static uint32_t bad_with(double x, double y, double z) {
     }
     assert_int_equal(info.curved_triangles + info.bad_normals, 1280);
     assert_int_equal((first_check(scene).exceeded & KNURL_LIMIT_NORMALS) != 0, info.bad_normals > 0);
-    knurl_scene_destroy(scene);
     smooth_free(&m);
     return info.bad_normals;
 }
@@ -90,7 +89,7 @@ TEST(a_zero_normal_is_reported_at_any_corner) {
 
 TEST(a_smooth_sphere_says_how_far_it_is_from_its_triangles) {
     smooth_mesh m = smooth_make_sphere(2);
-    knurl_scene *scene = scene_with(&m);
+    SCOPED_SCENE *scene = scene_with(&m);
     const knurl_surface_info info = first_info(scene);
     double low = HUGE_VAL;
     for (uint32_t i = 0; i < m.s.index_count / 3; i++) {
@@ -102,7 +101,6 @@ TEST(a_smooth_sphere_says_how_far_it_is_from_its_triangles) {
     assert_int_equal(info.curved_triangles, 320);
     assert_int_equal(info.bad_normals, 0);
     assert_true(info.bulge >= 0.98 * (0.03 - low) && info.bulge < 1.2 * (0.03 - low)); /* the patch is 1 % off */
-    knurl_scene_destroy(scene);
     smooth_free(&m);
 }
 
@@ -132,11 +130,10 @@ TEST(a_flat_mesh_is_a_plane_if_its_normals_are) {
             m.normals[3 * v] = (float)sin(x);
             m.normals[3 * v + 2] = (float)cos(x);
         }
-        knurl_scene *scene = scene_with(&m);
+        SCOPED_SCENE *scene = scene_with(&m);
         const knurl_surface_info info = first_info(scene);
         assert_string_equal(info.model, bent ? "mesh+bvh" : "plane");
         assert_int_equal(info.curved_triangles, bent ? 32 : 0);
-        knurl_scene_destroy(scene);
         smooth_free(&m);
     }
 }
@@ -154,7 +151,7 @@ TEST(an_edge_with_split_normals_stays_an_edge) {
     }
     uint32_t at = shape_quad(&m.s, 0, 0, 2, 3, 1);
     (void)shape_quad(&m.s, at, 4, 6, 7, 5);
-    knurl_scene *scene = scene_with(&m);
+    SCOPED_SCENE *scene = scene_with(&m);
     assert_int_equal(first_info(scene).curved_triangles, 4);
     const double top = 0.02 * tan(SMOOTH_PI / 6.0);
     (void)tick_at(scene, -0.002, 0.001, top + 0.002);
@@ -164,7 +161,6 @@ TEST(an_edge_with_split_normals_stays_an_edge) {
     CHECK_CLOSE(left.normal[0], -0.4, 0.02);
     CHECK_CLOSE(right.normal[0], 0.4, 0.02);
     CHECK_CLOSE(length3(left.force), length3(right.force), 0.001); /* the diagonals of the quads differ */
-    knurl_scene_destroy(scene);
     smooth_free(&m);
 }
 
@@ -174,7 +170,7 @@ TEST(both_sides_of_a_smooth_sheet_are_one_surface) {
     surface_parts parts = smooth_surface(&m, 1);
     parts.material.stiffness = K;
     parts.desc.double_sided = 1;
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     static const double depths[] = {0.0001, 0.001, 0.003};
     for (int side = -1; side <= 1; side += 2) {
         for (size_t i = 0; i < COUNT_OF(depths); i++) {
@@ -188,7 +184,6 @@ TEST(both_sides_of_a_smooth_sheet_are_one_surface) {
             }
         }
     }
-    knurl_scene_destroy(scene);
     smooth_free(&m);
 }
 

@@ -22,8 +22,8 @@ static double uneven(double x, double y) {
 
 static knurl_surface_id add_kind(knurl_scene *scene, int kind, const pose *at) {
     const double half[2] = {0.03, 0.03};
-    shape s = kind == BOX ? shape_box((const double[3]){0.03, 0.03, 0.01}, 0)
-                          : shape_sheet(12, 12, half, kind == UNEVEN_MESH ? uneven : NULL);
+    SCOPED_SHAPE s = kind == BOX ? shape_box((const double[3]){0.03, 0.03, 0.01}, 0)
+                                 : shape_sheet(12, 12, half, kind == UNEVEN_MESH ? uneven : NULL);
     for (uint32_t v = 0; kind == BOX && v < s.vertex_count; v++) {
         s.positions[3 * (size_t)v + 2] -= 0.01f;
     }
@@ -32,7 +32,6 @@ static knurl_surface_id add_kind(knurl_scene *scene, int kind, const pose *at) {
     parts.desc.axis[0] = 1.0;
     place(&parts, at);
     const knurl_surface_id id = add_surface(scene, &parts);
-    shape_free(&s);
     return id;
 }
 
@@ -60,7 +59,7 @@ static squeeze close_over(int floor, int lid, double speed, double past) {
     const pose at_floor = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};
     pose at_lid = {{0.0, 0.0, GAP}, {1.0, 0.0, 0.0, 0.0}}; /* turned over */
     const int down = (int)((GAP + past) / (speed * TICK));
-    knurl_scene *scene = empty_scene(1);
+    SCOPED_SCENE *scene = empty_scene(1);
     double last[3] = {0.0, 0.0, 0.0};
     squeeze s = {0};
     (void)add_kind(scene, floor, &at_floor);
@@ -85,7 +84,6 @@ static squeeze close_over(int floor, int lid, double speed, double past) {
     }
     s.lifted = length3(tick_at(scene, 0.0013, 0.0017, 0.001).force);
     s.told = counts_of(scene).squeezed_ticks;
-    knurl_scene_destroy(scene);
     return s;
 }
 

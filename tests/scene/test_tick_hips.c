@@ -276,7 +276,7 @@ TEST(surfaces_left_in_the_same_tick_are_all_left) {
 
 TEST(hips_are_independent) {
     surface_parts parts = s2_plane();
-    knurl_scene *both = empty_scene(2);
+    SCOPED_SCENE *both = empty_scene(2);
     (void)add_surface(both, &parts);
     configure_plainly(both, 0);
     configure_plainly(both, 1);
@@ -294,7 +294,6 @@ TEST(hips_are_independent) {
             check_same_output(&out, &expected);
         }
     }
-    knurl_scene_destroy(both);
     knurl_scene_destroy(alone[0]);
     knurl_scene_destroy(alone[1]);
 }

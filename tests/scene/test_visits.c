@@ -180,7 +180,7 @@ static int check_only_plane_is_touched(const shape *below, uint32_t max_visits) 
     surface_parts plane = surface_plane(), sphere = surface_shape(below, 0.0);
     knurl_hip_contact contacts[KNURL_CONTACTS_MAX];
     const knurl_hip_desc desc = hip_in_scene_axes();
-    knurl_scene *scene = empty_scene(1);
+    SCOPED_SCENE *scene = empty_scene(1);
     plane.desc.position[0] = plane.plane.half_extents[0] + 0.0015;
     (void)add_surface(scene, &plane);
     plane.desc.position[0] = 0.0;
@@ -198,7 +198,6 @@ static int check_only_plane_is_touched(const shape *below, uint32_t max_visits) 
             fail_msg("%u visits: contact with what is beside or below", (unsigned)max_visits);
         }
     }
-    knurl_scene_destroy(scene);
     return (out.flags & KNURL_TICK_VISIT_LIMIT) != 0;
 }
 
@@ -213,14 +212,13 @@ TEST(what_is_looked_at_twice_for_want_of_visits_is_not_taken_for_something_else)
 
 static uint32_t exceeded_by(const shape *s, double amplitude) {
     surface_parts parts = surface_shape(s, amplitude);
-    knurl_scene *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of(&parts);
     const knurl_surface_check check = first_check(scene);
-    knurl_scene_destroy(scene);
     return check.exceeded & KNURL_LIMIT_VISITS;
 }
 
 TEST(the_check_at_load_warns_of_meshes_that_meet_the_limit) {
-    shape ball = shape_sphere(0.01, 5);
+    SCOPED_SHAPE ball = shape_sphere(0.01, 5);
     SCOPED_SHAPE earth = globe(96, 48);
     SCOPED_SHAPE heap = heap_of_triangles(2000);
     assert_int_equal(exceeded_by(&ball, 0.02), KNURL_LIMIT_VISITS);
@@ -228,14 +226,13 @@ TEST(the_check_at_load_warns_of_meshes_that_meet_the_limit) {
     assert_int_equal(exceeded_by(&ball, 0.0005), 0);
     assert_int_equal(exceeded_by(&ball, 0.0), 0);
     assert_int_equal(exceeded_by(&earth, 0.0005), 0);
-    shape_free(&ball);
 }
 
 /* Spheres one 10 um beside the other, among planes through them: the first one's check. */
 static uint32_t exceeded_by_crowd(int count, int planes) {
-    shape s = shape_sphere(RADIUS, 3);
+    SCOPED_SHAPE s = shape_sphere(RADIUS, 3);
     surface_parts parts = surface_shape(&s, 0.0);
-    knurl_scene *scene = empty_scene(1);
+    SCOPED_SCENE *scene = empty_scene(1);
     for (int i = 0; i < count; i++) {
         parts.desc.position[0] = 1e-5 * i;
         (void)add_surface(scene, &parts);
@@ -247,8 +244,6 @@ static uint32_t exceeded_by_crowd(int count, int planes) {
     (void)commit_plainly(scene);
     const knurl_surface_check check = first_check(scene);
     assert_int_equal(strstr(check.message, "16 meshes come within 1 mm") != NULL, count == 16);
-    knurl_scene_destroy(scene);
-    shape_free(&s);
     return check.exceeded & KNURL_LIMIT_VISITS;
 }
 

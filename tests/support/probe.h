@@ -42,6 +42,9 @@ static inline void probe_free(probe *p) {
     assert_int_equal(p->heap.bytes, 0);
 }
 
+/** A probe that is freed at the end of its scope. */
+#define SCOPED_PROBE __attribute__((cleanup(probe_free))) probe
+
 /** Resets the contact: the next position is a first one. */
 static inline void probe_forget(probe *p) {
     p->query.has_previous = 0;

@@ -97,7 +97,7 @@ TEST(completion_offers_values_where_there_are_some_and_files_elsewhere) {
 }
 
 TEST(man_page_and_completions_name_every_command) {
-    process man = RUN_TOOL("man");
+    SCOPED_PROCESS man = RUN_TOOL("man");
     SCOPED_PROCESS zsh = RUN_TOOL("completion", "zsh");
     SCOPED_PROCESS fish = RUN_TOOL("completion", "fish");
     for (size_t i = 0; i < COUNT_OF(commands); i++) {
@@ -109,7 +109,6 @@ TEST(man_page_and_completions_name_every_command) {
     }
     check_has(fish.out, "-a \"help man completion\"");
     assert_memory_equal(zsh.out, "#compdef knurl\n", 15); /* for a folder in zsh's fpath */
-    process_free(&man);
 }
 
 TEST(near_misses_are_guessed) {
@@ -130,14 +129,13 @@ TEST(near_misses_are_guessed) {
 }
 
 TEST(a_value_may_follow_an_equals_sign) {
-    process apart = RUN_TOOL("signal", "--method", "T1", "--period-ms", "3", "--ticks", "6");
+    SCOPED_PROCESS apart = RUN_TOOL("signal", "--method", "T1", "--period-ms", "3", "--ticks", "6");
     SCOPED_PROCESS joined = RUN_TOOL("signal", "--method=T1", "--period-ms=3", "--ticks=6");
     SCOPED_PROCESS flag = RUN_TOOL("devices", "--json=yes");
     assert_int_equal(joined.exit_code, 0);
     assert_string_equal(joined.out, apart.out);
     assert_int_equal(flag.exit_code, 2);
     check_has(flag.err, "--json takes no value, found 'yes'");
-    process_free(&apart);
 }
 
 TEST(inspect_checks_for_build_pipelines) {

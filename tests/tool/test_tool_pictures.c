@@ -63,9 +63,8 @@ TEST(a_picture_never_replaces_a_file_of_dev) {
                                "except style.BadInput as error: print(error)";
     static const char studies[] = KNURL_TEST_ASSETS "/../samples/study";
     const char *const arguments[] = {python, "-c", code, studies, NULL};
-    process p = run_tool(arguments);
+    SCOPED_PROCESS p = run_tool(arguments);
     assert_non_null(strstr(p.out, "/dev/fd/777: expected a place to write a PNG to, found: No such file"));
-    process_free(&p);
 }
 
 static process draw_run(const char *run, const char *picture) {

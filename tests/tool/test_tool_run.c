@@ -96,9 +96,9 @@ TEST(the_summary_is_one_line_of_json_with_every_key_of_the_contract) {
 TEST(fast_twice_gives_the_same_bytes_and_another_seed_others) {
     static const char *const strokes[] = {"line", "sweep", "circle", "press", "rest"};
     for (size_t i = 0; i < COUNT_OF(strokes); i++) {
-        process one =
+        SCOPED_PROCESS one =
             RUN_TOOL("run", plate, "--fast", "--stroke", strokes[i], "--seconds", "1.5", "--out", tool_path("one.csv"));
-        process two =
+        SCOPED_PROCESS two =
             RUN_TOOL("run", plate, "--fast", "--stroke", strokes[i], "--seconds", "1.5", "--out", tool_path("two.csv"));
         SCOPED_PROCESS other = RUN_TOOL("run", plate, "--fast", "--stroke", strokes[i], "--seconds", "1.5", "--out",
                                         tool_path("other.csv"), "--device", "fake:?seed=2");
@@ -113,8 +113,6 @@ TEST(fast_twice_gives_the_same_bytes_and_another_seed_others) {
         free(first);
         free(second);
         free(third);
-        process_free(&one);
-        process_free(&two);
     }
     check_no_leftovers();
 }

@@ -177,7 +177,7 @@ static double cycles_at(knurl_scene *scene, double x, double z) {
 /* Along the texture's own ridges the phase stays; across them it moves on by one cycle per ridge. The texture's ridges
  * are 20 pixels apart, at 30 degrees in pixels, and its pixels are twice as wide as high on the plate. */
 static void check_felt(const char *path, double pixel_x, double pixel_z) {
-    knurl_scene *scene = NULL;
+    SCOPED_SCENE *scene = NULL;
     assert_int_equal(knurl_scene_create(NULL, &scene), KNURL_OK);
     assert_int_equal(knurl_gltf_load_file(scene, path, NULL, NULL), KNURL_OK);
     assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
@@ -187,7 +187,6 @@ static void check_felt(const char *path, double pixel_x, double pixel_z) {
     const double across = cycles_at(scene, 0.001 + 20.0 * c * pixel_x, 0.002 - 20.0 * s * pixel_z);
     CHECK_CLOSE(along, here, 0.02);
     CHECK_CLOSE(fabs(across - here), 1.0, 0.02);
-    knurl_scene_destroy(scene);
 }
 
 TEST(ridges_are_felt_where_the_texture_has_them) {
@@ -300,12 +299,11 @@ TEST(a_bad_picture_is_named_with_its_fault) {
                  {"noise.png", 3, "no regular pattern: this is no grating (confidence 0"}};
     write_bad_pictures();
     for (size_t i = 0; i < COUNT_OF(table); i++) {
-        process p = RUN_TOOL("tag", "--from-picture", tool_path(table[i].name), "--picture-size", "40mm");
+        SCOPED_PROCESS p = RUN_TOOL("tag", "--from-picture", tool_path(table[i].name), "--picture-size", "40mm");
         assert_int_equal(p.exit_code, table[i].code);
         if (!strstr(p.err, table[i].words)) {
             fail_msg("%s: expected '%s' in '%s'", table[i].name, table[i].words, p.err);
         }
-        process_free(&p);
     }
 }
 
@@ -334,8 +332,8 @@ TEST(a_material_whose_texture_cannot_be_used_is_refused) {
     write_bad_pictures();
     for (size_t i = 0; i < COUNT_OF(table); i++) {
         const char *file = write_textured("bad.gltf", table[i].material, table[i].more, table[i].scales);
-        process p = RUN_TOOL("tag", file, "--material", "0", "--from-texture", "--preset", "zip", "--out",
-                             tool_path("out.gltf"));
+        SCOPED_PROCESS p = RUN_TOOL("tag", file, "--material", "0", "--from-texture", "--preset", "zip", "--out",
+                                    tool_path("out.gltf"));
         assert_int_equal(p.exit_code, table[i].code);
         char words[256];
         (void)snprintf(words, sizeof words, "%s", table[i].words);
@@ -345,7 +343,6 @@ TEST(a_material_whose_texture_cannot_be_used_is_refused) {
             }
         }
         assert_false(file_exists(tool_path("out.gltf")));
-        process_free(&p);
     }
 }
 

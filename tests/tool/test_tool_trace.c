@@ -76,11 +76,10 @@ TEST(an_exact_trace_is_exact_on_a_device_with_a_long_name) {
         memcpy(uri + used, key, sizeof key);
     }
     uri[strlen(uri) - 1] = '\0'; /* the last ampersand */
-    process p = RUN_TOOL("run", write_plate("plate.gltf", TAG), "--fast", "--trace", record("counts.csv", 0.055e-3, 17),
-                         "--device", uri, "--exact");
+    SCOPED_PROCESS p = RUN_TOOL("run", write_plate("plate.gltf", TAG), "--fast", "--trace",
+                                record("counts.csv", 0.055e-3, 17), "--device", uri, "--exact");
     check_done(&p);
     CHECK_SAME(json_number_of(p.out, "resolution_m"), 0.0L);
-    process_free(&p);
 }
 
 TEST(an_exact_trace_stays_exact) {

@@ -90,13 +90,12 @@ TEST(without_a_person_steps_that_ask_are_left_out_unless_told_to_go_on) {
 }
 
 TEST(a_finding_that_failed_is_exit_code_3) {
-    process p =
+    SCOPED_PROCESS p =
         RUN_TOOL("verify", "--only", "noise", "--yes", "--device", "fake:?tremor=0.001", "--out", tool_path("bad"));
     assert_int_equal(p.exit_code, 3);
     char *page = read_file(tool_path("bad.html"));
     assert_non_null(strstr(page, "<p class=\"fail\">noise: noisy encoder"));
     free(page);
-    process_free(&p);
 }
 
 TEST(wrong_arguments_are_refused_and_nothing_is_written) {
