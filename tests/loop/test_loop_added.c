@@ -156,17 +156,11 @@ TEST_WITH(numbers_that_are_none_are_refused_and_change_nothing, NULL, end_bench)
     CHECK_VECTOR(written(0), 0.0, 2.0, 0.0, 1e-9);
 }
 
-static void push(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user) {
-    (void)tick;
-    (void)sample;
-    (void)user;
-    force[0] = 1.0;
-}
-
 TEST_WITH(a_force_callback_adds_forces_itself_and_has_the_gain, NULL, end_bench) {
+    static double right[3] = {1.0, 0.0, 0.0};
     static const double up[3] = {0.0, 1.0, 0.0};
     bench_open(FREE);
-    bench_create_callback(push, NULL);
+    bench_create_callback(push_force, right);
     assert_int_equal(knurl_loop_set_force(b.loop, up), KNURL_ERROR_STATE);
     assert_int_equal(knurl_loop_vibrate(b.loop, KNURL_WAVE_T3, 100.0, 1.0, up, 1.0), KNURL_ERROR_STATE);
     assert_int_equal(knurl_loop_set_gain(b.loop, 0.5), KNURL_OK);

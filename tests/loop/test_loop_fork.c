@@ -11,13 +11,6 @@
 
 #define PATIENCE 5 /* s */
 
-static void no_force(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user) {
-    (void)tick;
-    (void)sample;
-    (void)user;
-    force[0] = force[1] = force[2] = 0.0;
-}
-
 static knurl_result get_position(void *user, knurl_device_sample *sample) {
     (void)user;
     (void)sample;
@@ -66,20 +59,15 @@ static int in_a_child(int (*what)(knurl_loop *loop, knurl_device *device), knurl
 }
 
 TEST(a_forked_child_waits_for_no_thread_and_the_loop_of_its_parent_goes_on) {
+    double none[3] = {0.0, 0.0, 0.0};
     SCOPED_DEVICE *device = blocking_device();
-    knurl_loop *loop = NULL;
-    knurl_loop_desc desc;
-    knurl_loop_desc_init(&desc, sizeof desc);
-    desc.device = device;
-    desc.force_callback = no_force;
-    assert_int_equal(knurl_loop_create(&desc, &loop), KNURL_OK);
-    assert_int_equal(knurl_loop_start(loop), KNURL_OK);
+    const knurl_loop_desc desc = push_desc(device, none);
+    knurl_loop *loop = start_push(&desc);
     assert_int_equal(in_a_child(stop_loop, loop, device), 0);
     assert_int_equal(in_a_child(wait_long, loop, device), 0);
     assert_int_equal(in_a_child(free_all, loop, device), 0);
-    const knurl_loop_stats before = loop_stats(loop);
+    const uint64_t ticks = loop_stats(loop).ticks;
     assert_int_equal(knurl_loop_wait(loop, 0.05), 0);
-    const knurl_loop_stats after = loop_stats(loop);
-    assert_true(after.ticks > before.ticks);
+    assert_true(loop_stats(loop).ticks > ticks);
     knurl_loop_destroy(loop);
 }

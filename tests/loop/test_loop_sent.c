@@ -163,17 +163,11 @@ TEST_WITH(a_force_that_was_limited_is_sent_as_it_is_told, NULL, end_bench) {
     }
 }
 
-static void push(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user) {
-    (void)tick;
-    (void)sample;
-    (void)user;
-    force[1] = 3.3;
-}
-
 TEST_WITH(what_a_callback_asked_for_and_did_not_get_warms_nothing, NULL, end_bench) {
+    static double most[3] = {0.0, 3.3, 0.0};
     bench_open(DEPTH);
     b.desc.heartbeat_s = 0.05;
-    bench_create_callback(push, NULL);
+    bench_create_callback(push_force, most);
     step(60000);
     const knurl_loop_stats stats = loop_stats(b.loop);
     CHECK_SAME(written_now(), 0.0L);

@@ -183,16 +183,10 @@ TEST_WITH(a_pause_is_over_after_its_ramp_whatever_the_ramp_and_the_squeeze, NULL
 
 /* --- by a callback --- */
 
-static void push(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user) {
-    (void)tick;
-    (void)sample;
-    memcpy(force, user, 3 * sizeof *force);
-}
-
 static void begin_callback(double wanted[3], uint32_t protections) {
     bench_open(0.0);
     b.desc.protections = protections;
-    bench_create_callback(push, wanted);
+    bench_create_callback(push_force, wanted);
 }
 
 /* Its jumps may be a texture of its own. */

@@ -6,6 +6,7 @@
 #include "support/suite.h"
 
 #include <knurl/knurl.h>
+#include <string.h>
 
 static inline void scoped_scene(knurl_scene **scene) {
     knurl_scene_destroy(*scene);
@@ -37,6 +38,30 @@ static inline knurl_loop_stats loop_stats(const knurl_loop *loop) {
     knurl_loop_stats_init(&stats, sizeof stats);
     assert_int_equal(knurl_loop_get_stats(loop, &stats), KNURL_OK);
     return stats;
+}
+
+/** A force callback that plays the force (N) at `user`, 3 numbers. */
+static inline void push_force(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user) {
+    (void)tick;
+    (void)sample;
+    memcpy(force, user, 3 * sizeof *force);
+}
+
+/** Of a loop that plays `force` on a device; it is kept. */
+static inline knurl_loop_desc push_desc(knurl_device *device, double force[3]) {
+    knurl_loop_desc desc;
+    knurl_loop_desc_init(&desc, sizeof desc);
+    desc.device = device;
+    desc.force_callback = push_force;
+    desc.user = force;
+    return desc;
+}
+
+static inline knurl_loop *start_push(const knurl_loop_desc *desc) {
+    knurl_loop *loop = NULL;
+    assert_int_equal(knurl_loop_create(desc, &loop), KNURL_OK);
+    assert_int_equal(knurl_loop_start(loop), KNURL_OK);
+    return loop;
 }
 
 #endif

@@ -243,23 +243,12 @@ TEST(it_is_started_before_it_is_read) {
 
 /* --- a loop over it --- */
 
-static void push(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user) {
-    const double *wanted = user;
-    (void)tick;
-    (void)sample;
-    force[1] = *wanted;
-}
-
 TEST(a_loop_plays_its_forces_on_it) {
     for (uint32_t blocking = 0; blocking < 2; blocking++) {
-        double wanted = 9.0; /* of 5 */
-        knurl_loop_desc desc;
+        double wanted[3] = {0.0, 9.0, 0.0}; /* of 5 */
         knurl_loop *loop = NULL;
         knurl_device *device = home_open(&h, blocking);
-        knurl_loop_desc_init(&desc, sizeof desc);
-        desc.device = device;
-        desc.force_callback = push;
-        desc.user = &wanted;
+        knurl_loop_desc desc = push_desc(device, wanted);
         desc.tick_limit = 200;
         desc.update_rate_hz = 2000.0;
         assert_int_equal(knurl_loop_create(&desc, &loop), KNURL_OK);
@@ -279,14 +268,10 @@ TEST(a_loop_plays_its_forces_on_it) {
 
 TEST(only_nonblocking_devices_can_be_stepped) {
     for (uint32_t blocking = 0; blocking < 2; blocking++) {
-        double wanted = 1.0;
-        knurl_loop_desc desc;
+        double wanted[3] = {0.0, 1.0, 0.0};
         knurl_loop *loop = NULL;
         SCOPED_DEVICE *device = home_open(&h, blocking);
-        knurl_loop_desc_init(&desc, sizeof desc);
-        desc.device = device;
-        desc.force_callback = push;
-        desc.user = &wanted;
+        const knurl_loop_desc desc = push_desc(device, wanted);
         assert_int_equal(knurl_loop_create(&desc, &loop), KNURL_OK);
         assert_int_equal(knurl_loop_step(loop, 50), blocking ? KNURL_ERROR_UNSUPPORTED : KNURL_OK);
         assert_true(blocking || (h.reads == 50 && h.writes == 50));

@@ -217,25 +217,14 @@ TEST(an_unplugged_device_is_lost_at_once) {
     assert_true(event.time_ns - injected <= PERIOD_NS);
 }
 
-static void pull(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user) {
-    (void)tick;
-    (void)sample;
-    (void)user;
-    force[0] = 1.0;
-}
-
 /* Regression: the last position was still valid after the force was zeroed, so the loop resumed during the silence. */
 TEST(a_loop_does_not_resume_while_the_device_is_silent) {
     for (int phase = 0; phase < 5; phase++) {
-        knurl_loop_desc desc;
-        knurl_loop *loop = NULL;
+        double force[3] = {1.0, 0.0, 0.0};
         SCOPED_DEVICE *device = home_open(&h, 1);
-        knurl_loop_desc_init(&desc, sizeof desc);
-        desc.device = device;
-        desc.force_callback = pull;
+        knurl_loop_desc desc = push_desc(device, force);
         desc.watchdog_s = 0.0;
-        assert_int_equal(knurl_loop_create(&desc, &loop), KNURL_OK);
-        assert_int_equal(knurl_loop_start(loop), KNURL_OK);
+        knurl_loop *loop = start_push(&desc);
         knurl_store_relaxed(&h.mute_ns, (int64_t)1000000); /* noticed as early as possible */
         sleep_ns(30000000 + 300000 * phase);
         (void)next_code(device, -1);

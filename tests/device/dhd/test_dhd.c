@@ -104,13 +104,6 @@ TEST_WITH(every_type_is_known_by_its_force_and_stiffness, NULL, end) {
     }
 }
 
-static void pull(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user) {
-    (void)tick;
-    (void)sample;
-    (void)user;
-    force[1] = 1.28;
-}
-
 /* Lets the loop run; returns the count of this event, and its value. */
 static int wait_and_count(int ms, int32_t code, double *value) {
     knurl_device_event event;
@@ -130,17 +123,13 @@ static int wait_and_count(int ms, int32_t code, double *value) {
 TEST_WITH(forces_that_are_switched_off_at_the_device_are_an_event_with_its_cause_and_come_back_by_a_ramp, NULL, end) {
     static const int causes[][2] = {{1, 1}, {2, 2}, {3, 3}, {4, 4}, {5, 5}, {6, 6}, {9, 0}};
     for (size_t i = 0; i < COUNT_OF(causes); i++) {
+        double asked[3] = {0.0, 1.28, 0.0};
         double force[3];
         double others[3];
         double value = -1.0;
-        knurl_loop_desc desc;
-        knurl_loop *loop = NULL;
         device = dhd_double.open();
-        knurl_loop_desc_init(&desc, sizeof desc);
-        desc.device = device;
-        desc.force_callback = pull;
-        assert_int_equal(knurl_loop_create(&desc, &loop), KNURL_OK);
-        assert_int_equal(knurl_loop_start(loop), KNURL_OK);
+        const knurl_loop_desc desc = push_desc(device, asked);
+        knurl_loop *loop = start_push(&desc);
         (void)wait_and_count(300, 0, &value);
         dhd_stub.ask(force, others);
         CHECK_CLOSE(force[1], 1.28, 1e-12);

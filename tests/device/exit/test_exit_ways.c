@@ -49,13 +49,6 @@ static const struct way {
 
 /* --- the child --- */
 
-static void push(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user) {
-    (void)tick;
-    (void)sample;
-    (void)user;
-    force[1] = 1.0;
-}
-
 static void nap(void) {
     knurl_system_sleep_until_ns(knurl_system_now_ns() + 1000000);
 }
@@ -93,7 +86,7 @@ static int be_a_child(char **arguments) {
     const uint32_t guarded = (uint32_t)number_of(arguments[2]);
     wire_shared *shared = mmap(NULL, sizeof *shared, PROT_READ | PROT_WRITE, MAP_SHARED, number_of(arguments[4]), 0);
     const struct rlimit none = {0, 0};
-    knurl_loop_desc desc;
+    static double force[3] = {0.0, 1.0, 0.0};
     knurl_loop *loop = NULL;
     (void)setrlimit(RLIMIT_CORE, &none);
     (void)setpgid(0, 0); /* an orphaned process group is not stopped */
@@ -102,9 +95,7 @@ static int be_a_child(char **arguments) {
             (void)signal(ways[i].how, SIG_DFL); /* a sanitizer's */
         }
     }
-    knurl_loop_desc_init(&desc, sizeof desc);
-    desc.device = kind->open(number_of(arguments[3]), shared, guarded);
-    desc.force_callback = push;
+    const knurl_loop_desc desc = push_desc(kind->open(number_of(arguments[3]), shared, guarded), force);
     if (!desc.device || knurl_device_zero_on_exit(0) || knurl_loop_create(&desc, &loop) || knurl_loop_start(loop)) {
         (void)fprintf(stderr, "child: %s\n", knurl_error_message());
         _exit(100);

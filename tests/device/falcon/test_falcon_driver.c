@@ -155,13 +155,6 @@ TEST_WITH(a_homing_that_is_lost_for_a_moment_does_not_end_in_the_full_force_at_o
     CHECK_CLOSE(falcon_fake_look(&fake).force[0], 1.0, 0.02);
 }
 
-static void push(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user) {
-    (void)tick;
-    (void)sample;
-    (void)user;
-    force[1] = 2.0;
-}
-
 /* The largest present motor value. */
 static int strongest_motor(void) {
     const falcon_sim sim = falcon_fake_look(&fake);
@@ -174,14 +167,11 @@ static int strongest_motor(void) {
 
 TEST_WITH(a_loop_comes_back_from_lost_homings_of_any_length_by_the_ramp, begin, end) {
     static const int gaps_ms[] = {1, 3, 8, 11, 100};
-    knurl_loop_desc desc;
+    static double force[3] = {0.0, 2.0, 0.0}; /* the teardown ends the loop */
     falcon_sim_put(&fake.sim, 0.0, 0.0, 0.0);
-    knurl_loop_desc_init(&desc, sizeof desc);
     open_with("");
-    desc.device = device;
-    desc.force_callback = push;
-    assert_int_equal(knurl_loop_create(&desc, &running), KNURL_OK);
-    assert_int_equal(knurl_loop_start(running), KNURL_OK);
+    const knurl_loop_desc desc = push_desc(device, force);
+    running = start_push(&desc);
     sleep_ms(100);
     const int full = strongest_motor();
     assert_true(full > 100);

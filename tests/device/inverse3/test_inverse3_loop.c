@@ -9,13 +9,6 @@
 #include <knurl/device.h>
 #include <knurl/loop.h>
 
-static void pull(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user) {
-    (void)tick;
-    (void)sample;
-    (void)user;
-    force[1] = 2.0;
-}
-
 static inverse3_sim look(void) {
     const inverse3_sim now = *inverse3_double_take();
     inverse3_double_give_back();
@@ -47,14 +40,11 @@ static int end(void **state) {
 
 /* A device in a loop that pulls with 2 N. */
 static void open_in_loop(void) {
-    knurl_loop_desc desc;
+    static double force[3] = {0.0, 2.0, 0.0};
     (void)end(NULL);
     device = inverse3_double_open("");
-    knurl_loop_desc_init(&desc, sizeof desc);
-    desc.device = device;
-    desc.force_callback = pull;
-    assert_int_equal(knurl_loop_create(&desc, &loop), KNURL_OK);
-    assert_int_equal(knurl_loop_start(loop), KNURL_OK);
+    const knurl_loop_desc desc = push_desc(device, force);
+    loop = start_push(&desc);
     sleep_ms(300.0);
     CHECK_CLOSE(look().force[2], 2.0, 1e-12);
 }

@@ -6,29 +6,16 @@
 #define SECONDS 0.3
 #define FORCE   3.0
 
-static void press(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user) {
-    (void)tick;
-    (void)sample;
-    (void)user;
-    force[1] = FORCE;
-}
-
 /* Presses for `seconds`. Returns the motors' heat before and after, as reported by the loop. */
 static void run(double seconds, double *before, double *after) {
-    knurl_loop_desc desc;
-    knurl_loop *loop = NULL;
+    double force[3] = {0.0, FORCE, 0.0};
     open_ready("");
-    knurl_loop_desc_init(&desc, sizeof desc);
-    desc.device = device;
-    desc.force_callback = press;
-    assert_int_equal(knurl_loop_create(&desc, &loop), KNURL_OK);
-    assert_int_equal(knurl_loop_start(loop), KNURL_OK);
-    knurl_loop_stats stats = loop_stats(loop);
-    *before = stats.heat;
+    const knurl_loop_desc desc = push_desc(device, force);
+    knurl_loop *loop = start_push(&desc);
+    *before = loop_stats(loop).heat;
     sleep_ms(1000.0 * seconds);
     knurl_loop_stop(loop);
-    stats = loop_stats(loop);
-    *after = stats.heat;
+    *after = loop_stats(loop).heat;
     knurl_loop_destroy(loop);
     close_device();
 }

@@ -216,13 +216,6 @@ TEST(nothing_pushes_after_a_wrong_sign_and_no_latency_is_told_of_a_sticky_joint)
     assert_string_equal(v.findings[1].note, "positions are noisy, which comes first");
 }
 
-static void no_force(uint64_t tick, const knurl_device_sample *sample, double force[3], void *user) {
-    (void)tick;
-    (void)sample;
-    (void)force;
-    (void)user;
-}
-
 static double play_once(verify *on) {
     return verify_play(on, 0.1, NULL) ? NAN : 1.0;
 }
@@ -232,15 +225,13 @@ TEST(a_measurement_that_could_not_be_made_says_why) {
     static volatile sig_atomic_t interrupted;
     double measured = 0.0;
     double expected = 0.0;
-    knurl_loop_desc desc;
+    double none[3] = {0.0, 0.0, 0.0};
     knurl_loop *loop = NULL;
     memset(&v, 0, sizeof v);
     v.interrupted = &interrupted;
     v.simulated = 1;
     assert_int_equal(verify_open("fake", &v.device), KNURL_OK);
-    knurl_loop_desc_init(&desc, sizeof desc);
-    desc.device = v.device;
-    desc.force_callback = no_force;
+    const knurl_loop_desc desc = push_desc(v.device, none);
     assert_int_equal(knurl_loop_create(&desc, &loop), KNURL_OK);
     assert_non_null(strstr(verify_compare(&v, NULL, play_once, &measured, &expected), "in use by another loop"));
     knurl_loop_destroy(loop);
