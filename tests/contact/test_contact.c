@@ -182,8 +182,7 @@ TEST(plane_stopped_at_exactly_is_held_from_the_side_the_hip_came_from) {
 }
 
 TEST(mesh_stopped_at_exactly_is_held_from_the_side_the_hip_came_from) {
-    shape sheet = shape_sheet(5, 5, (const double[2]){HALF_X, HALF_Y}, NULL);
-    SCOPED_PROBE p = probe_shape(&sheet);
+    SCOPED_PROBE p = probe_of(shape_sheet(5, 5, (const double[2]){HALF_X, HALF_Y}, NULL));
     check_exact_touchdown(&p, 1);
     check_exact_touchdown(&p, -1);
 }
@@ -202,8 +201,7 @@ TEST(double_sided_front_stopped_at_exactly_ends_the_contact) {
 
 /* A walk that presses in, lifts off and runs over the edge, of steps up to `step` m. */
 static void compare_with_a_flat_mesh(double reach, int double_sided, double step, uint64_t seed) {
-    shape sheet = shape_sheet(12, 7, (const double[2]){HALF_X, HALF_Y}, NULL);
-    SCOPED_PROBE mesh = probe_shape(&sheet);
+    SCOPED_PROBE mesh = probe_of(shape_sheet(12, 7, (const double[2]){HALF_X, HALF_Y}, NULL));
     probe plane = probe_plane(HALF_X, HALF_Y);
     const double range[3] = {1.2 * HALF_X, 1.2 * HALF_Y, 0.004};
     double hip[3] = {0.0, 0.0, 0.004};

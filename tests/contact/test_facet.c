@@ -84,8 +84,7 @@ TEST(with_a_kept_facet_everything_is_the_same_to_the_bit) {
 /* On a flat mesh along x: y is across it. */
 TEST(along_an_axis_the_rates_are_the_velocitys_parts_along_and_across_it) {
     static const double half[2] = {0.05, 0.04}, hip[3] = {0.004, 0.003, -0.001}, velocity[3] = {0.3, -0.2, 0.1};
-    shape flat = shape_sheet(12, 9, half, NULL);
-    SCOPED_PROBE p = probe_shape(&flat);
+    SCOPED_PROBE p = probe_of(shape_sheet(12, 9, half, NULL));
     p.mesh->has_axis = 1;
     p.mesh->axis[0] = 1.0;
     (void)probe_to(&p, 0.004, 0.003, 0.001);

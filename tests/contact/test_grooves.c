@@ -29,8 +29,7 @@ static shape make_grooves(double period, double depth) {
 
 /* To and fro, 1 mm below the ridges; the proxy may not lag by more than the half period that it cannot see past. */
 static double drag(double period, double depth, double speed, double across) {
-    shape s = make_grooves(period, depth);
-    SCOPED_PROBE p = probe_shape(&s);
+    SCOPED_PROBE p = probe_of(make_grooves(period, depth));
     double worst = 0.0;
     double x = -0.03;
     double way = 0.001 * speed;
@@ -63,8 +62,7 @@ TEST(proxy_does_not_lock_in_square_grooves) {
 TEST(fast_strokes_do_not_get_through_a_thin_wall) {
     const double half[3] = {0.04, 0.03, 0.00025};
     uint64_t seed = 3;
-    shape wall = shape_box(half, 0);
-    SCOPED_PROBE p = probe_shape(&wall);
+    SCOPED_PROBE p = probe_of(shape_box(half, 0));
     for (int k = 0; k < 20000; k++) {
         double hip[3];
         double way[3];

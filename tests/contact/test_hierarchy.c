@@ -21,8 +21,7 @@ TEST(hierarchy_holds_every_triangle_once) {
 
 TEST(hierarchy_of_1e5_triangles_is_sound) {
     const double half[2] = {0.1, 0.1};
-    shape sheet = shape_sheet(250, 200, half, bumps);
-    SCOPED_PROBE p = probe_shape(&sheet);
+    SCOPED_PROBE p = probe_of(shape_sheet(250, 200, half, bumps));
     assert_int_equal(p.mesh->triangle_count, 100000);
     check_hierarchy(p.mesh);
 }
@@ -140,9 +139,8 @@ static int first_crossing(const shape *s, const double a[3], const double b[3], 
 }
 
 static void compare_cross(uint64_t seed, uint32_t triangles, double size, double stroke) {
-    shape soup = shape_soup(seed, triangles, size);
     SCOPED_SHAPE copy = shape_soup(seed, triangles, size);
-    SCOPED_PROBE p = probe_shape(&soup);
+    SCOPED_PROBE p = probe_of(shape_soup(seed, triangles, size));
     int hits = 0;
     for (int k = 0; k < 6000; k++) {
         double a[3];
@@ -179,9 +177,8 @@ TEST(first_crossing_matches_brute_force) {
 
 /* Through every edge and corner of a closed body from outside to its middle: between two neighbours there is no gap. */
 TEST(no_stroke_slips_between_neighbours) {
-    shape sphere = shape_sphere(0.03, 3);
     SCOPED_SHAPE copy = shape_sphere(0.03, 3);
-    SCOPED_PROBE p = probe_shape(&sphere);
+    SCOPED_PROBE p = probe_of(shape_sphere(0.03, 3));
     for (uint32_t i = 0; i < copy.index_count; i++) {
         for (int k = 0; k <= 4; k++) { /* along the edge from corner i to the next: at its ends, and between */
             const double middle[3] = {0.0, 0.0, 0.0};

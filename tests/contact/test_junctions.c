@@ -40,8 +40,7 @@ TEST(three_sheets_on_one_edge_hold_on) {
             for (uint32_t i = 0; turned && i < fin.index_count / 3; i++) {
                 turn_over(&fin, i);
             }
-            shape both = shape_join(&sheet, &fin);
-            SCOPED_PROBE p = probe_shape(&both);
+            SCOPED_PROBE p = probe_of(shape_join(&sheet, &fin));
             assert_true(p.mesh->non_manifold_count >= 9);
             if (way < 0) {
                 stroke_over(&p, 0.001);
@@ -60,8 +59,7 @@ TEST(bow_ties_hold_on) {
         const uint32_t corners[3] = {0, i + 1, (i + 1) % 8 + 1};
         memcpy(&cone.indices[3 * (size_t)i], corners, sizeof corners);
     }
-    shape both = shape_join(&sheet, &cone);
-    SCOPED_PROBE p = probe_shape(&both);
+    SCOPED_PROBE p = probe_of(shape_join(&sheet, &cone));
     assert_true(p.mesh->non_manifold_count > 0);
     stroke_over(&p, 0.001);
 }
@@ -73,8 +71,7 @@ TEST(double_layers_hold_across_every_border) {
         for (uint32_t i = 0; i < bottom.index_count / 3; i++) {
             turn_over(&bottom, i);
         }
-        shape both = shape_join(front > 0 ? &top : &bottom, front > 0 ? &bottom : &top);
-        SCOPED_PROBE p = probe_shape(&both);
+        SCOPED_PROBE p = probe_of(shape_join(front > 0 ? &top : &bottom, front > 0 ? &bottom : &top));
         assert_int_equal(p.mesh->facts.reversed_twins, 128);
         p.query.double_sided = p.mesh->double_sided;
         stroke_over(&p, 0.001);
@@ -146,8 +143,7 @@ static shape halves(double gap) {
 
 /* In by one half and at the end of the tick below the other, at all angles. */
 TEST(entering_beside_a_t_junction_and_passing_it_in_one_tick_holds) {
-    shape s = halves(0.0);
-    SCOPED_PROBE p = probe_shape(&s);
+    SCOPED_PROBE p = probe_of(halves(0.0));
     for (int line = -18; line <= 18; line++) {
         for (int k = 1; k <= 60; k++) {
             for (int32_t front = 1; front >= -1; front -= 2) {
@@ -167,8 +163,7 @@ TEST(entering_beside_a_t_junction_and_passing_it_in_one_tick_holds) {
 /* A slot of 1 mm, crossed within a tick from inside: in reach on its own side beyond it is in contact, further is not;
  * in the slot itself there is nothing. */
 TEST(leaving_a_sheet_across_a_slot_is_in_reach_beyond_it) {
-    shape s = halves(0.001);
-    SCOPED_PROBE p = probe_shape(&s);
+    SCOPED_PROBE p = probe_of(halves(0.001));
     p.query.reach = 0.0005;
     p.query.double_sided = 1;
     for (int32_t side = 1; side >= -1; side -= 2) {
@@ -210,8 +205,7 @@ TEST(t_junction_on_a_thin_plate_is_slid_over_however_deep) {
         bottom.positions[3 * (size_t)v + 2] = -0.001f;
     }
     shape top = shape_join(&left, &right);
-    shape plate = shape_join(&top, &bottom);
-    SCOPED_PROBE p = probe_shape(&plate);
+    SCOPED_PROBE p = probe_of(shape_join(&top, &bottom));
     for (int line = -15; line <= 15; line++) {
         for (int way = -1; way <= 1; way += 2) {
             probe_forget(&p);

@@ -58,11 +58,10 @@ TEST(visits_are_exceeded_where_triangles_crowd) {
                 *at = *at * 0.0005f + (axis < 2 ? 0.045f : 0.0f);
             }
         }
-        shape both = is_crowded ? shape_join(&sheet, &crowd) : sheet;
         if (!is_crowded) {
             shape_free(&crowd);
         }
-        SCOPED_PROBE p = probe_shape(&both);
+        SCOPED_PROBE p = probe_of(is_crowded ? shape_join(&sheet, &crowd) : sheet);
         assert_int_equal(knurl_mesh_exceeds_visits(p.mesh, 0.001, 1000), is_crowded);
     }
 }

@@ -121,8 +121,7 @@ static double near_room(const double p[3]) {
 static void check_box(int inside_out, double (*near)(const double p[3]), double z, uint64_t seed) {
     static const double steps[] = {0.0001, 0.0005, 0.002}; /* to 2 m/s at 1 kHz */
     const double start[3] = {0.0, 0.0, z};
-    shape box = shape_box(box_half, inside_out);
-    SCOPED_PROBE p = probe_shape(&box);
+    SCOPED_PROBE p = probe_of(shape_box(box_half, inside_out));
     for (size_t i = 0; i < COUNT_OF(steps); i++) {
         walk_near(&p, near, start, 0.003, 0.001, steps[i], 1e-8, 100000, seed + i);
     }
@@ -137,8 +136,7 @@ TEST(corners_of_a_room_hold) {
 }
 
 TEST(hip_sliding_round_an_edge_is_held_all_the_way) {
-    shape box = shape_box(box_half, 0);
-    SCOPED_PROBE p = probe_shape(&box);
+    SCOPED_PROBE p = probe_of(shape_box(box_half, 0));
     const double depth = 0.001;
     (void)probe_to(&p, 0.0, 0.0, 0.011);
     for (int k = 0; k <= 1900; k++) { /* along the top, 1 mm deep */
@@ -152,8 +150,7 @@ TEST(hip_sliding_round_an_edge_is_held_all_the_way) {
 }
 
 TEST(hip_pressed_in_over_an_edge_is_held_by_the_nearer_face) {
-    shape box = shape_box(box_half, 0);
-    SCOPED_PROBE p = probe_shape(&box);
+    SCOPED_PROBE p = probe_of(shape_box(box_half, 0));
     for (int k = 1; k <= 50; k++) {
         const double in[2] = {1e-5 * k, 2e-5 * (51 - k)};
         (void)probe_to(&p, box_half[0] + in[0], 0.0, box_half[2] + in[1]);
@@ -165,8 +162,7 @@ TEST(hip_pressed_in_over_an_edge_is_held_by_the_nearer_face) {
 
 TEST(distance_in_front_of_a_box_is_the_boxs) {
     const double reach = 0.0008;
-    shape box = shape_box(box_half, 0);
-    SCOPED_PROBE p = probe_shape(&box);
+    SCOPED_PROBE p = probe_of(shape_box(box_half, 0));
     p.query.reach = reach;
     uint64_t seed = 5;
     int near = 0;
@@ -207,8 +203,7 @@ TEST(ring_holds_what_is_inside_but_for_its_facets) {
     const uint32_t around = 240;
     const uint32_t tube = 80;
     const double sagitta = 0.038 * (1.0 - cos(PI / around)) + 0.008 * (1.0 - cos(PI / tube)) + 1e-8;
-    shape ring = body_torus(around, tube);
-    SCOPED_PROBE p = probe_shape(&ring);
+    SCOPED_PROBE p = probe_of(body_torus(around, tube));
     for (size_t i = 0; i < COUNT_OF(steps); i++) {
         walk_near(&p, near_ring, start, 0.003, 0.001, steps[i], sagitta, 100000, 41 + i);
     }
@@ -229,8 +224,7 @@ TEST(groove_holds_at_its_bottom) {
     static const double steps[] = {0.0001, 0.0005, 0.002};
     const double half[2] = {0.0625, 0.5};
     const double start[3] = {0.0, 0.0, 0.001};
-    shape groove = shape_sheet(50, 50, half, groove_height);
-    SCOPED_PROBE p = probe_shape(&groove);
+    SCOPED_PROBE p = probe_of(shape_sheet(50, 50, half, groove_height));
     for (size_t i = 0; i < COUNT_OF(steps); i++) {
         walk_near(&p, near_groove, start, 0.002, 0.0007, steps[i], 1e-8, 20000, 51 + i);
     }
@@ -274,8 +268,7 @@ TEST(seams_of_doubled_vertices_do_not_end_the_contact) {
 
 TEST(curved_double_sided_sheet_holds_on_both_sides) {
     const double half[2] = {0.0625, 0.0625};
-    shape sheet = shape_sheet(50, 50, half, groove_height);
-    SCOPED_PROBE p = probe_shape(&sheet);
+    SCOPED_PROBE p = probe_of(shape_sheet(50, 50, half, groove_height));
     p.query.double_sided = 1;
     for (int side = -1; side <= 1; side += 2) {
         probe_forget(&p);

@@ -5,8 +5,7 @@
 
 TEST(beyond_the_rim_of_an_open_sheet_the_contact_ends) {
     const double half[2] = {0.0625, 0.03125};
-    shape sheet = shape_sheet(9, 7, half, NULL);
-    SCOPED_PROBE p = probe_shape(&sheet);
+    SCOPED_PROBE p = probe_of(shape_sheet(9, 7, half, NULL));
     for (int k = 0; k < 24; k++) { /* out over edges and corners, all round */
         const double to[2] = {half[0] * 1.5 * cos(2.0 * PI * k / 24.0), half[1] * 1.5 * sin(2.0 * PI * k / 24.0)};
         probe_forget(&p);
@@ -23,8 +22,7 @@ TEST(beyond_the_rim_of_an_open_sheet_the_contact_ends) {
 
 TEST(nothing_in_front_of_a_rim_is_in_reach) {
     const double half[2] = {0.0625, 0.03125};
-    shape sheet = shape_sheet(9, 7, half, NULL);
-    SCOPED_PROBE p = probe_shape(&sheet);
+    SCOPED_PROBE p = probe_of(shape_sheet(9, 7, half, NULL));
     p.query.reach = 0.001;
     assert_true(probe_to(&p, 0.0624, 0.0, 0.0005));
     assert_false(probe_to(&p, 0.0626, 0.0, 0.0005));
@@ -50,8 +48,7 @@ static shape shape_with_t_junctions(void) {
 }
 
 TEST(border_of_t_junctions_is_slid_over) {
-    shape sheets = shape_with_t_junctions();
-    SCOPED_PROBE p = probe_shape(&sheets);
+    SCOPED_PROBE p = probe_of(shape_with_t_junctions());
     for (int way = -1; way <= 1; way += 2) {
         for (int line = -30; line <= 30; line++) {
             probe_forget(&p);

@@ -10,8 +10,7 @@ static double steep_height(double x, double y) {
 /* From inside one wall of a steep groove into the other in one tick: out and in again within one path. */
 TEST(groove_crossed_in_one_tick_holds_on_its_other_side) {
     const double half[2] = {0.0625, 0.0625};
-    shape groove = shape_sheet(50, 50, half, steep_height);
-    SCOPED_PROBE p = probe_shape(&groove);
+    SCOPED_PROBE p = probe_of(shape_sheet(50, 50, half, steep_height));
     for (int k = 0; k < 20; k++) { /* 1 m/s at 1 kHz, up to 0.19 mm deep */
         const double x = 0.0005;
         const double depth = 1e-5 * k + 1e-6;
@@ -155,8 +154,7 @@ TEST(strokes_over_teeth_never_lose_the_tooth_they_are_in) {
     const double half[2] = {0.0625, 0.005};
     for (size_t i = 0; i < COUNT_OF(amplitudes); i++) {
         teeth_amplitude = amplitudes[i];
-        shape teeth = shape_sheet(500, 2, half, teeth_height);
-        SCOPED_PROBE p = probe_shape(&teeth);
+        SCOPED_PROBE p = probe_of(shape_sheet(500, 2, half, teeth_height));
         for (size_t k = 0; k < 5 * COUNT_OF(steps); k++) {
             drag_over_teeth(&p, steps[k % COUNT_OF(steps)], 81 + k);
         }

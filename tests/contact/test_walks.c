@@ -255,10 +255,8 @@ TEST(the_force_does_not_depend_on_the_tessellation) {
     const double ky = 0.003 * pow(2.0 * PI / 0.04, 2.0);
     const double kxy = 0.003 * (2.0 * PI / 0.03) * (2.0 * PI / 0.04);
     const double bound = h * h / 8.0 * (kx + ky + 2.0 * kxy);
-    shape a = body_wavy(coarse_n);
-    shape b = body_wavy(224);
-    SCOPED_PROBE coarse = probe_shape(&a);
-    SCOPED_PROBE fine = probe_shape(&b);
+    SCOPED_PROBE coarse = probe_of(body_wavy(coarse_n));
+    SCOPED_PROBE fine = probe_of(body_wavy(224));
     double worst = 0.0;
     for (size_t i = 0; i < COUNT_OF(speeds); i++) {
         probe_forget(&coarse);

@@ -14,6 +14,12 @@ static inline knurl_hip_desc hip_in_scene_axes(void) {
     return hip;
 }
 
+/** The scene_of() a plane with defaults. */
+static inline knurl_scene *scene_of_plane(void) {
+    surface_parts parts = surface_plane();
+    return scene_of(&parts);
+}
+
 /** A committed scene of one surface, or of none (null), with HIP 0 as described. */
 static inline knurl_scene *scene_with_hip(surface_parts *parts, const knurl_hip_desc *hip) {
     knurl_scene *scene = empty_scene(1);

@@ -1,6 +1,6 @@
 /* Each pointer that may not be null, null by itself: refused, or no effect, and nothing written.
  * SPDX-License-Identifier: MIT */
-#include "support/scenes.h"
+#include "scene/ask.h"
 
 #include <knurl/knurl.h>
 
@@ -36,8 +36,7 @@ TEST(edits_of_a_scene_refuse_null) {
 }
 
 TEST(questions_to_a_scene_refuse_null) {
-    surface_parts parts = surface_plane();
-    SCOPED_SCENE *s = scene_of(&parts);
+    SCOPED_SCENE *s = scene_of_plane();
     const double at[3] = {0.0, 0.0, 0.1}, to[3] = {0.0, 0.0, -0.1};
     char name[KNURL_NAME_SIZE] = "untouched";
     knurl_surface_id id = knurl_scene_get_surface(s, 0);
@@ -70,8 +69,7 @@ TEST(questions_to_a_scene_refuse_null) {
 }
 
 TEST(functions_of_a_hip_refuse_null) {
-    surface_parts parts = surface_plane();
-    SCOPED_SCENE *s = scene_of(&parts);
+    SCOPED_SCENE *s = scene_of_plane();
     knurl_hip_desc desc;
     knurl_workspace workspace;
     knurl_tick_input input;

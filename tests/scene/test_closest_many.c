@@ -173,8 +173,7 @@ TEST(a_batch_is_its_searches_one_after_another) {
 
 TEST(a_batch_with_one_bad_position_changes_no_point) {
     double positions[2][3] = {{0.0, 0.0, 0.1}, {0.0, (double)NAN, 0.0}};
-    surface_parts parts = surface_plane();
-    SCOPED_SCENE *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of_plane();
     knurl_surface_point found[2];
     for (int i = 0; i < 2; i++) {
         knurl_surface_point_init(&found[i], sizeof found[i]);
@@ -185,8 +184,7 @@ TEST(a_batch_with_one_bad_position_changes_no_point) {
 
 TEST(a_batch_with_one_bad_size_changes_no_point) {
     const double positions[2][3] = {{0.0, 0.0, 0.1}, {0.0, 0.0, 0.2}};
-    surface_parts parts = surface_plane();
-    SCOPED_SCENE *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of_plane();
     knurl_surface_point found[2];
     knurl_surface_point_init(&found[0], sizeof found[0]);
     memset(&found[1], 0, sizeof found[1]);

@@ -98,8 +98,7 @@ TEST(an_axis_may_have_any_length) {
 }
 
 TEST(forces_of_all_effects_and_of_a_surface_add_up) {
-    surface_parts parts = surface_plane();
-    SCOPED_SCENE *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of_plane();
     knurl_effect effects[KNURL_EFFECTS_MAX];
     double sum[3] = {0.0, 0.0, 0.001 * 400.0};
     const double at[3] = {0.004, -0.003, -0.001}, v[3] = {0.1, 0.2, 0.0};

@@ -288,8 +288,7 @@ TEST(coordinates_are_taken_up_to_a_range_and_refused_beyond) {
 /* A HIP beyond the range ends its contacts, like a position that is not finite; back in range it starts anew. */
 TEST(hips_beyond_the_range_count_as_no_position) {
     static const double far[] = {1.001e9, -1.7e19, 1e200, 1e308};
-    surface_parts parts = surface_plane();
-    SCOPED_SCENE *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of_plane();
     for (size_t i = 0; i < COUNT_OF(far); i++) {
         (void)tick_at(scene, 0.0, 0.0, 0.001);
         assert_true(tick_at(scene, 0.0, 0.0, -0.001).contacts == 1);

@@ -36,8 +36,7 @@ static void check_frame(const knurl_scene *scene, knurl_surface_id plane, const 
 
 TEST(a_moving_surface_is_described_on_its_way) {
     static const double z[3] = {0.0, 0.0, 1.0};
-    surface_parts parts = surface_plane();
-    SCOPED_SCENE *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of_plane();
     const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
     pose end = {{0.1, -0.2, 0.0}, {0.0}}, middle = {{0.05, -0.1, 0.0}, {0.0}};
     turn_about(z, 1.0, end.quaternion);
@@ -170,8 +169,7 @@ TEST(the_normal_at_the_closest_point_is_the_fronts) {
 TEST(a_closest_point_is_asked_for_with_numbers_in_range) {
     static const double nowhere[3] = {0.0, (double)NAN, 0.0}, here[3] = {0.0, 0.0, 0.0};
     static const double beyond[3] = {0.0, 0.0, 1e300}, far[3] = {0.0, 0.0, 1e9};
-    surface_parts parts = surface_plane();
-    SCOPED_SCENE *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of_plane();
     knurl_surface_point found;
     knurl_surface_point_init(&found, sizeof found);
     CHECK_REFUSED(knurl_scene_find_closest(scene, nowhere, 1.0, &found), KNURL_ERROR_ARGUMENT, found);
@@ -273,8 +271,7 @@ TEST(a_ray_hits_the_first_of_three_surfaces) {
 
 TEST(a_ray_ends_where_it_is_told_to_and_meets_a_surface_where_it_is_now) {
     static const double above[3] = {0.0, 0.0, 0.3}, on[3] = {0.0, 0.0, 0.0}, below[3] = {0.0, 0.0, -0.01};
-    surface_parts parts = surface_plane();
-    SCOPED_SCENE *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of_plane();
     const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
     assert_true(cast(scene, above, on).surface == 0);
     knurl_surface_point found = cast(scene, above, below);
@@ -292,8 +289,7 @@ TEST(a_ray_ends_where_it_is_told_to_and_meets_a_surface_where_it_is_now) {
 
 TEST(a_point_exactly_at_the_radius_is_found) {
     static const double above[3] = {0.0, 0.0, 0.25};
-    surface_parts parts = surface_plane();
-    SCOPED_SCENE *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of_plane();
     const knurl_surface_point found = closest_to(scene, above, 0.25);
     assert_true(found.surface == knurl_scene_get_surface(scene, 0));
     CHECK_SAME(found.distance, 0.25);
@@ -302,8 +298,7 @@ TEST(a_point_exactly_at_the_radius_is_found) {
 
 TEST(a_ray_is_cast_with_numbers_in_range) {
     static const double nowhere[3] = {0.0, (double)NAN, 0.0}, beyond[3] = {0.0, 0.0, -1e31}, here[3] = {0.0, 0.0, 0.1};
-    surface_parts parts = surface_plane();
-    SCOPED_SCENE *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of_plane();
     knurl_surface_point found;
     knurl_surface_point_init(&found, sizeof found);
     CHECK_REFUSED(knurl_scene_cast_ray(scene, nowhere, here, &found), KNURL_ERROR_ARGUMENT, found);

@@ -54,8 +54,7 @@ static void configure_and_tick(void *user) {
 }
 
 TEST(a_snapshot_is_whole_while_its_hip_is_configured_anew) {
-    surface_parts parts = surface_plane();
-    SCOPED_SCENE *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of_plane();
     torn = 0;
     together(read_snapshots, configure_and_tick, scene);
     assert_true(torn == 0);

@@ -2,6 +2,7 @@
 #include "proxy/contacts.h"
 #include "scene/scene.h"
 
+#include "scene/ask.h"
 #include "support/ledger.h"
 #include "support/poses.h"
 
@@ -179,8 +180,7 @@ TEST(a_contact_with_what_is_no_longer_there_is_over) {
 /* The plane lies round the origin; in the last tick it was a metre away. */
 TEST(a_surface_is_near_in_the_tick_after_the_edit_that_brings_it) {
     static const float away[6] = {1.0F, 1.0F, 1.0F, 2.0F, 2.0F, 2.0F};
-    surface_parts parts = surface_plane();
-    SCOPED_SCENE *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of_plane();
     const knurl_surface_data *surface = knurl_surfaces_at(&scene->surfaces, 0);
     const knurl_hip_clock clock = {0.005, 0.004, 0.001, 5};
     for (int is_edited = 0; is_edited <= 1; is_edited++) {

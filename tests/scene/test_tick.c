@@ -15,8 +15,7 @@ static surface_parts grating_plane(int32_t method, double fsx, double fsy) {
 }
 
 TEST(smooth_surface_pushes_with_stiffness_times_depth) {
-    surface_parts parts = surface_plane();
-    SCOPED_SCENE *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of_plane();
     for (int k = -20; k <= 100; k++) {
         const double depth = 1e-5 * k;
         const knurl_tick_output out = tick_at(scene, 0.01, -0.02, -depth);

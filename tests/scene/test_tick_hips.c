@@ -159,8 +159,7 @@ TEST(velocity_starts_anew_after_numbers_that_are_not_finite) {
 }
 
 TEST(velocity_that_is_not_used_need_not_be_finite) {
-    surface_parts parts = surface_plane();
-    SCOPED_SCENE *scene = scene_of(&parts);
+    SCOPED_SCENE *scene = scene_of_plane();
     const knurl_tick_input input = {{0.0, 0.0, -0.001}, {(double)NAN, (double)INFINITY, 0.0}, 0, 0, 0.0, 0, {0}};
     knurl_tick_output out;
     assert_int_equal(knurl_scene_tick(scene, 0, &input, &out), KNURL_OK);

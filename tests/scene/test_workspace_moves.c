@@ -6,12 +6,6 @@
 
 #define TICK 0.001 /* s */
 
-/* A wall of 400 N/m with front up at z = 0, 100 x 100 mm. */
-static knurl_scene *wall(void) {
-    surface_parts parts = surface_plane();
-    return scene_of(&parts);
-}
-
 static knurl_workspace at(double x, double y, double z) {
     knurl_workspace workspace;
     knurl_workspace_set_identity(&workspace);
@@ -33,7 +27,7 @@ static void move(knurl_scene *scene, const knurl_workspace *to, double seconds) 
 }
 
 TEST(the_hip_goes_with_its_workspace_at_its_speed) {
-    SCOPED_SCENE *scene = wall();
+    SCOPED_SCENE *scene = scene_of_plane();
     const knurl_workspace to = at(0.01, 0.0, 0.02);
     (void)tick_at(scene, 0.001, 0.0, 0.03);
     move(scene, &to, 0.1); /* 0.1 m/s along x, 0.2 m/s along z */
@@ -50,7 +44,7 @@ TEST(the_hip_goes_with_its_workspace_at_its_speed) {
 /* A quarter turn about z in 0.1 s: the HIP, 10 mm from the origin, moves at 0.01 m * pi/2 / 0.1 s. */
 TEST(a_workspace_that_turns_takes_positions_and_forces_along) {
     static const double quarter[9] = {0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0};
-    SCOPED_SCENE *scene = wall();
+    SCOPED_SCENE *scene = scene_of_plane();
     knurl_workspace to = at(0.0, 0.0, 0.0);
     memcpy(to.rotation, quarter, sizeof quarter);
     (void)tick_at(scene, 0.01, 0.0, 0.01);
@@ -72,7 +66,7 @@ TEST(a_workspace_that_turns_takes_positions_and_forces_along) {
  * that its force has the other sign. */
 TEST(a_workspace_presses_its_hip_into_a_wall_like_a_hand) {
     static const double over[9] = {1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, -1.0};
-    SCOPED_SCENE *scene = wall();
+    SCOPED_SCENE *scene = scene_of_plane();
     knurl_workspace start = at(0.0, 0.0, 0.01);
     memcpy(start.rotation, over, sizeof over);
     move(scene, &start, 0.0);
@@ -89,7 +83,7 @@ TEST(a_workspace_presses_its_hip_into_a_wall_like_a_hand) {
 }
 
 TEST(a_workspace_that_jumps_touches_nothing_on_its_way) {
-    SCOPED_SCENE *scene = wall();
+    SCOPED_SCENE *scene = scene_of_plane();
     const knurl_workspace to = at(0.0, 0.0, -0.05);
     (void)tick_at(scene, 0.0, 0.0, 0.02);
     move(scene, &to, 0.0);
@@ -114,7 +108,7 @@ TEST(ridges_are_felt_at_the_workspaces_speed) {
 }
 
 TEST(moves_in_a_row_go_on_from_where_the_workspace_is) {
-    SCOPED_SCENE *scene = wall();
+    SCOPED_SCENE *scene = scene_of_plane();
     const knurl_workspace first = at(0.1, 0.0, 0.0);
     const knurl_workspace second = at(0.0, 0.0, 0.0);
     knurl_workspace told;
@@ -130,7 +124,7 @@ TEST(moves_in_a_row_go_on_from_where_the_workspace_is) {
 }
 
 TEST(invalid_moves_are_refused_with_the_expected_values) {
-    knurl_scene *scene = wall();
+    knurl_scene *scene = scene_of_plane();
     knurl_workspace bad = at(0.0, 0.0, 0.0);
     bad.scale = 0.0;
     assert_int_equal(knurl_scene_set_workspace(scene, 0, &bad, 0.1), KNURL_ERROR_ARGUMENT);
@@ -149,7 +143,7 @@ TEST(invalid_moves_are_refused_with_the_expected_values) {
 
 /* Doubled in a second: the scale is 2^t, the velocity the change of position. */
 TEST(a_zoom_carries_the_hip_from_the_origin_at_its_speed) {
-    SCOPED_SCENE *scene = wall();
+    SCOPED_SCENE *scene = scene_of_plane();
     const knurl_workspace to = zoomed(0.01, 2.0);
     const knurl_workspace start = at(0.0, 0.0, 0.01);
     move(scene, &start, 0.0);
@@ -169,7 +163,7 @@ TEST(a_zoom_carries_the_hip_from_the_origin_at_its_speed) {
 
 /* As above, with 200 ticks without a position: the velocity after them is that of one tick. */
 TEST(a_zoom_that_goes_on_without_a_position_is_not_made_up_for_in_one_tick) {
-    SCOPED_SCENE *scene = wall();
+    SCOPED_SCENE *scene = scene_of_plane();
     const knurl_workspace to = zoomed(0.0, 2.0);
     knurl_tick_input input;
     knurl_tick_output out;
@@ -188,7 +182,7 @@ TEST(a_zoom_that_goes_on_without_a_position_is_not_made_up_for_in_one_tick) {
 }
 
 TEST(a_zoom_takes_a_fifth_of_a_second_for_a_factor_of_e_at_least) {
-    SCOPED_SCENE *scene = wall();
+    SCOPED_SCENE *scene = scene_of_plane();
     const knurl_workspace in = zoomed(0.0, exp(-2.0));
     (void)tick_at(scene, 0.03, 0.0, 0.03);
     move(scene, &in, 0.001);
@@ -200,7 +194,7 @@ TEST(a_zoom_takes_a_fifth_of_a_second_for_a_factor_of_e_at_least) {
 
 /* Engines set a workspace in every frame. */
 TEST(a_zoom_goes_on_while_the_workspace_is_moved_on) {
-    SCOPED_SCENE *scene = wall();
+    SCOPED_SCENE *scene = scene_of_plane();
     const knurl_workspace first = zoomed(0.0, exp(1.0));
     knurl_workspace told;
     (void)tick_at(scene, 0.03, 0.0, 0.03);
@@ -215,7 +209,7 @@ TEST(a_zoom_goes_on_while_the_workspace_is_moved_on) {
 }
 
 TEST(a_jump_ends_a_zoom) {
-    SCOPED_SCENE *scene = wall();
+    SCOPED_SCENE *scene = scene_of_plane();
     const knurl_workspace to = zoomed(0.0, 2.0);
     (void)tick_at(scene, 0.03, 0.0, 0.03);
     move(scene, &to, 1.0);
@@ -227,7 +221,7 @@ TEST(a_jump_ends_a_zoom) {
 /* 11 mm below the origin, which is 10 mm above the wall: 1 mm deep, then 3.2 mm. The HIP moves at 5/s times 13.2 mm at
  * most, and the force grows by 400 N/m times that. */
 TEST(a_zoom_presses_its_hip_into_a_wall_without_a_jump) {
-    SCOPED_SCENE *scene = wall();
+    SCOPED_SCENE *scene = scene_of_plane();
     const knurl_workspace start = at(0.0, 0.0, 0.01);
     const knurl_workspace to = zoomed(0.01, 1.2);
     move(scene, &start, 0.0);
@@ -249,7 +243,7 @@ TEST(a_zoom_presses_its_hip_into_a_wall_without_a_jump) {
 
 /* From 2 mm above the wall to 19.6 mm and 25 mm below it, farther than a first tick reaches. */
 TEST(a_zoom_that_jumps_touches_nothing) {
-    SCOPED_SCENE *scene = wall();
+    SCOPED_SCENE *scene = scene_of_plane();
     const knurl_workspace start = at(0.0, 0.0, 0.02);
     move(scene, &start, 0.0);
     (void)tick_at(scene, 0.0, 0.0, -0.018);

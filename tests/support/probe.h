@@ -37,6 +37,11 @@ static inline probe probe_shape(shape *s) {
     return p;
 }
 
+/** Of a shape that nothing else needs. */
+static inline probe probe_of(shape s) {
+    return probe_shape(&s);
+}
+
 static inline void probe_free(probe *p) {
     knurl_mesh_destroy(&p->heap, p->mesh);
     assert_int_equal(p->heap.bytes, 0);
