@@ -6,21 +6,11 @@
 
 /* A plate of 100 x 100 mm at y = 0, front up, 1 mm period along x, 0.2 mm, 400 N/m. */
 static knurl_scene *make_scene(int committed) {
-    knurl_scene *scene = NULL;
-    knurl_plane_desc plane;
-    knurl_material_desc material;
-    knurl_surface_desc surface;
-    knurl_plane_desc_init(&plane, sizeof plane);
-    knurl_material_desc_init(&material, sizeof material);
-    knurl_surface_desc_init(&surface, sizeof surface);
-    material.spatial_frequency[0] = 1000.0;
-    material.amplitude = 0.0002;
-    material.stiffness = 400.0;
-    surface.plane = &plane;
-    surface.material = &material;
-    surface.normal[1] = 1.0;
-    assert_int_equal(knurl_scene_create(NULL, &scene), KNURL_OK);
-    assert_int_equal(knurl_scene_add_surface(scene, &surface, NULL), KNURL_OK);
+    knurl_scene *scene = empty_scene(1);
+    surface_parts parts = surface_plane();
+    set_grating(&parts, KNURL_METHOD_DEFAULT, 1000.0, 0.0, 0.0002);
+    parts.desc.normal[1] = 1.0;
+    (void)add_surface(scene, &parts);
     if (committed) {
         assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
     }

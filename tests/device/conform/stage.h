@@ -5,7 +5,7 @@
 
 #include "judge.h"
 
-#include "support/close.h"
+#include "support/scenes.h"
 
 #define STAGE_FORCE 3.3  /* N: the device's greatest */
 #define STAGE_SLEW  0.66 /* N per tick: STAGE_FORCE within 5 ms */
@@ -51,21 +51,13 @@ static inline void stage_tick(const knurl_tick_output *output, void *user) {
 }
 
 static inline knurl_surface_id stage_add(stage *s, double stiffness, double z, int upside_down) {
-    knurl_plane_desc plane;
-    knurl_material_desc material;
-    knurl_surface_desc desc;
-    knurl_surface_id id = 0;
-    knurl_plane_desc_init(&plane, sizeof plane);
-    knurl_material_desc_init(&material, sizeof material);
-    knurl_surface_desc_init(&desc, sizeof desc);
-    material.stiffness = stiffness;
-    desc.plane = &plane;
-    desc.material = &material;
-    desc.position[2] = z;
-    desc.rotation[0] = upside_down ? 1.0 : 0.0;
-    desc.rotation[3] = upside_down ? 0.0 : 1.0;
-    assert_int_equal(knurl_scene_add_surface(s->scene, &desc, &id), KNURL_OK);
-    judge_surface_is(&s->j, id, &material);
+    surface_parts parts = surface_plane();
+    parts.material.stiffness = stiffness;
+    parts.desc.position[2] = z;
+    parts.desc.rotation[0] = upside_down ? 1.0 : 0.0;
+    parts.desc.rotation[3] = upside_down ? 0.0 : 1.0;
+    const knurl_surface_id id = add_surface(s->scene, &parts);
+    judge_surface_is(&s->j, id, &parts.material);
     return id;
 }
 
@@ -74,7 +66,6 @@ static inline knurl_surface_id stage_add(stage *s, double stiffness, double z, i
 static inline void stage_open(stage *s, double stiffness, double lid_z, double ramp_s, uint32_t blocking,
                               double heartbeat_s) {
     knurl_device_functions f;
-    knurl_device_info info;
     knurl_loop_desc loop;
     knurl_workspace workspace;
     knurl_hip_desc hip;
@@ -88,11 +79,10 @@ static inline void stage_open(stage *s, double stiffness, double lid_z, double r
     f.write = stage_write;
     f.motors_known = 1;
     assert_int_equal(knurl_device_open_functions(&f, &s->device), KNURL_OK);
-    knurl_device_info_init(&info, sizeof info);
-    assert_int_equal(knurl_device_get_info(s->device, &info), KNURL_OK);
+    const knurl_device_info info = device_info(s->device);
     s->j.sees_writes = 1;
     judge_begin(&s->j, &info, 1000.0, ramp_s, 0.0);
-    assert_int_equal(knurl_scene_create(NULL, &s->scene), KNURL_OK);
+    s->scene = empty_scene(1);
     if (stiffness > 0.0) {
         (void)stage_add(s, stiffness, 0.0, 0);
     }

@@ -24,6 +24,12 @@ static process run_with_falcon(const char *const *options, const char *const *ar
 #define NO_OPTIONS     ((const char *const[]){NULL})
 #define ARGUMENTS(...) ((const char *const[]){__VA_ARGS__, NULL})
 
+static double now(void) {
+    struct timespec t;
+    (void)clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
 static const char plate[] = KNURL_TEST_ASSETS "/plate_1d.glb";
 
 static void check_felt(process *p) {
@@ -60,18 +66,16 @@ TEST(a_hanging_library_a_garbage_handle_and_a_busy_falcon_are_a_line_each_within
     const double limit = SUITE_SANITIZED ? 10.0 : 3.0; /* s: sanitizers start programs slowly */
     assert_int_equal(setenv("KNURL_HD_LIBRARY", KNURL_TEST_STUB, 1), 0);
     for (size_t i = 0; i < COUNT_OF(wishes); i++) {
-        struct timespec begin;
-        struct timespec end;
         assert_int_equal(setenv("KNURL_STUB_HD", wishes[i], 1), 0);
-        (void)clock_gettime(CLOCK_MONOTONIC, &begin);
+        const double begin = now();
         SCOPED_PROCESS p = run_with_falcon(OPTIONS("--busy"), ARGUMENTS("devices"));
-        (void)clock_gettime(CLOCK_MONOTONIC, &end);
+        const double took = now() - begin;
         check_done(&p);
         const char *touch = line_below(p.out, "\ntouch");
         const char *falcon = line_below(p.out, "\nfalcon");
         assert_true(strstr(touch, words[i]) && strstr(touch, words[i]) < strchr(touch, '\n'));
         assert_true(strstr(falcon, "it is in use") && strstr(falcon, "it is in use") < strchr(falcon, '\n'));
-        assert_true((double)(end.tv_sec - begin.tv_sec) + 1e-9 * (double)(end.tv_nsec - begin.tv_nsec) < limit);
+        assert_true(took < limit);
     }
     (void)unsetenv("KNURL_STUB_HD");
     (void)unsetenv("KNURL_HD_LIBRARY");
@@ -104,12 +108,6 @@ TEST(a_falcon_without_firmware_is_given_the_image) {
     (void)snprintf(uri, sizeof uri, "falcon:?firmware=%s", tool_path("image.bin"));
     process p = run_with_falcon(OPTIONS("--no-firmware"), ARGUMENTS("run", plate, "--device", uri, "--seconds", "1"));
     check_felt(&p);
-}
-
-static double now(void) {
-    struct timespec t;
-    (void)clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
 /* A tick takes a position: with one in four exchanges, six hundred ticks would be more than a second. */

@@ -2,35 +2,18 @@
  * here. SPDX-License-Identifier: MIT */
 #include "device/doubles.h"
 
-#include "base/system.h"
-#include "device/touch/stub_hd.h"
-
-#include <knurl/fake.h>
-
-static struct {
-    knurl_library *library;
-    stub_set_function set;
-    stub_limp_function limp_since;
-    stub_reset_function reset;
-    stub_use_time_function use_time;
-} stub;
+#include "device/touch/stub.h"
 
 static knurl_device *open_double(void) {
-    char why[256];
     knurl_device *device = NULL;
-    stub.library = knurl_system_load_library(KNURL_TEST_STUB, why, sizeof why);
-    if (!stub.library || !knurl_system_find_function(stub.library, "stub_set", &stub.set) ||
-        !knurl_system_find_function(stub.library, "stub_limp_since", &stub.limp_since) ||
-        !knurl_system_find_function(stub.library, "stub_reset", &stub.reset) ||
-        !knurl_system_find_function(stub.library, "stub_use_time", &stub.use_time)) {
-        (void)knurl_fail(KNURL_ERROR_UNSUPPORTED, "%s: %s", KNURL_TEST_STUB, why);
+    if (stub_load(NULL)) {
+        (void)knurl_fail(KNURL_ERROR_UNSUPPORTED, "%s cannot be loaded", KNURL_TEST_STUB);
         return NULL;
     }
-    stub.use_time(&stub_program_time);
     stub.reset();
     stub.set(STUB_DEFAULT, STUB_STROKE, KNURL_STROKE_REST);
-    if (knurl_device_open("touch:?library=" KNURL_TEST_STUB, &device)) {
-        knurl_system_unload_library(stub.library);
+    if (knurl_device_open("touch", &device)) {
+        (void)stub_unload(NULL);
     }
     return device;
 }
@@ -49,7 +32,7 @@ static int64_t limp_since(void) {
 
 static void close_double(knurl_device *device) {
     knurl_device_close(device);
-    knurl_system_unload_library(stub.library);
+    (void)stub_unload(NULL);
 }
 
 static void hold(int is_held) {
