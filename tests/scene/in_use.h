@@ -42,21 +42,20 @@ static knurl_result make_loop(knurl_device *device, knurl_scene *scene, uint32_t
     return knurl_loop_create(&desc, loop);
 }
 
-static void set_up(uint32_t blocking) {
+static void set_up_without_loop(uint32_t blocking) {
     memset(&s, 0, sizeof s);
     s.device = home_open(&s.home, blocking);
     home_place(&s.home, 0.0, 0.0, -0.001);
     s.scene = wall_scene(&s.books);
+}
+
+static void set_up(uint32_t blocking) {
+    set_up_without_loop(blocking);
     assert_int_equal(make_loop(s.device, s.scene, 0, &s.loop), KNURL_OK);
 }
 
 static double motor(void) {
     return knurl_load_double(&s.home.motor[2]);
-}
-
-static inline knurl_loop_stats stats_of(const knurl_loop *loop) {
-    const knurl_loop_stats stats = loop_stats(loop);
-    return stats;
 }
 
 static void start_and_push(void) {
@@ -74,6 +73,19 @@ static void check_all_gone(void) {
     assert_true(s.home.close_order == s.home.order);
     assert_true(motor() == 0.0);
     assert_int_equal(s.books.blocks, 0);
+}
+
+static inline void end_device_and_scene(void) {
+    knurl_device_close(s.device);
+    knurl_scene_destroy(s.scene);
+    check_all_gone();
+}
+
+/* Of a device that is closed. */
+static inline void end_loop_and_scene(void) {
+    knurl_loop_destroy(s.loop);
+    knurl_scene_destroy(s.scene);
+    check_all_gone();
 }
 
 #endif

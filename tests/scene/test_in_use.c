@@ -12,9 +12,7 @@ TEST(a_second_loop_on_a_device_is_refused_and_names_it) {
     knurl_loop_destroy(s.loop);
     assert_int_equal(make_loop(s.device, s.scene, 1, &second.loop), KNURL_OK); /* once that one is gone */
     knurl_loop_destroy(second.loop);
-    knurl_device_close(s.device);
-    knurl_scene_destroy(s.scene);
-    check_all_gone();
+    end_device_and_scene();
 }
 
 TEST(a_second_loop_on_a_hip_is_refused_and_names_it) {
@@ -42,18 +40,14 @@ TEST(a_second_loop_on_a_hip_is_refused_and_names_it) {
 
 TEST(a_loop_that_could_not_be_made_leaves_its_device_and_hip_to_others) {
     knurl_loop *loop = NULL;
-    memset(&s, 0, sizeof s);
-    s.device = home_open(&s.home, 0);
-    s.scene = wall_scene(&s.books);
+    set_up_without_loop(0);
     assert_int_equal(make_loop(s.device, s.scene, 7, &loop), KNURL_ERROR_ARGUMENT); /* no such HIP */
     s.home.start_gives = KNURL_ERROR_DEVICE_LOST;
     assert_int_equal(make_loop(s.device, s.scene, 0, &loop), KNURL_ERROR_DEVICE_LOST);
     s.home.start_gives = KNURL_OK;
     assert_int_equal(make_loop(s.device, s.scene, 0, &loop), KNURL_OK);
     knurl_loop_destroy(loop);
-    knurl_device_close(s.device);
-    knurl_scene_destroy(s.scene);
-    check_all_gone();
+    end_device_and_scene();
 }
 
 /* Threads that make a loop at the same moment. */
@@ -96,9 +90,7 @@ static int race(knurl_device *first, knurl_device *second) {
 TEST(of_two_threads_that_make_a_loop_of_the_same_at_once_one_does) {
     static home other;
     knurl_device *device = home_open(&other, 0);
-    memset(&s, 0, sizeof s);
-    s.device = home_open(&s.home, 0);
-    s.scene = wall_scene(&s.books);
+    set_up_without_loop(0);
     int turns_with_two = 0;
     for (int turn = 0; turn < 200; turn++) {
         turns_with_two += race(s.device, turn % 2 ? s.device : device) == 2;
@@ -106,9 +98,7 @@ TEST(of_two_threads_that_make_a_loop_of_the_same_at_once_one_does) {
     /* (two may be made one after the other, if the first thread is late; never while both exist) */
     assert_int_equal(turns_with_two, 0);
     knurl_device_close(device);
-    knurl_device_close(s.device);
-    knurl_scene_destroy(s.scene);
-    check_all_gone();
+    end_device_and_scene();
 }
 
 TEST(changes_of_a_device_or_hip_under_its_loop_are_refused) {

@@ -46,14 +46,14 @@ static void check_loop_ended(int state) {
     if (state == RUNNING) {
         wait_for_no_force();
         assert_int_equal(knurl_loop_wait(s.loop, 10.0), 1);
-        assert_int_equal(stats_of(s.loop).state, KNURL_LOOP_DONE);
+        assert_int_equal(loop_stats(s.loop).state, KNURL_LOOP_DONE);
         assert_true(motor() == 0.0);
     }
     if (state == STEPPED) { /* its next step is its last */
-        const uint64_t ticks = stats_of(s.loop).ticks;
+        const uint64_t ticks = loop_stats(s.loop).ticks;
         assert_int_equal(knurl_loop_step(s.loop, 10), KNURL_OK);
-        assert_int_equal(stats_of(s.loop).state, KNURL_LOOP_DONE);
-        assert_true(stats_of(s.loop).ticks == ticks);
+        assert_int_equal(loop_stats(s.loop).state, KNURL_LOOP_DONE);
+        assert_true(loop_stats(s.loop).ticks == ticks);
         assert_true(motor() == 0.0);
     }
     if (state == IDLE) {
@@ -101,9 +101,7 @@ TEST(a_closed_device_gets_no_force_from_its_loop) {
     assert_int_equal(knurl_loop_wait(s.loop, 10.0), 1);
     assert_true(motor() == 0.0);
     assert_int_equal(next_code(s.device, KNURL_FAULT_OVERRUN), 0); /* a close is no fault, and nothing resumed */
-    knurl_loop_destroy(s.loop);
-    knurl_scene_destroy(s.scene);
-    check_all_gone();
+    end_loop_and_scene();
 }
 
 /* Not only by the loop's next cycle, or the I/O thread's next exchange. */
@@ -122,9 +120,7 @@ TEST(a_close_returns_once_the_force_is_zero) {
                 sleep_ns(1000000);
                 assert_true(motor() == 0.0);
             }
-            knurl_loop_destroy(s.loop);
-            knurl_scene_destroy(s.scene);
-            check_all_gone();
+            end_loop_and_scene();
         }
     }
 }
@@ -156,9 +152,7 @@ TEST(a_close_on_the_haptic_thread_as_well) {
         assert_int_equal(knurl_loop_wait(s.loop, 10.0), 1);
         CHECK_CLOSE(forces[0], 0.4, 0.01);
         CHECK_SAME(forces[1], 0.0L);
-        knurl_loop_destroy(s.loop);
-        knurl_scene_destroy(s.scene);
-        check_all_gone();
+        end_loop_and_scene();
     }
 }
 
@@ -184,10 +178,7 @@ TEST(of_two_loops_on_a_destroyed_scene_the_last_one_frees_it) {
 
 TEST(a_loop_that_looks_for_its_lost_device_ends_when_that_is_closed) {
     knurl_loop_desc desc;
-    memset(&s, 0, sizeof s);
-    s.device = home_open(&s.home, 1);
-    home_place(&s.home, 0.0, 0.0, -0.001);
-    s.scene = wall_scene(&s.books);
+    set_up_without_loop(1);
     knurl_loop_desc_init(&desc, sizeof desc);
     desc.device = s.device;
     desc.scene = s.scene;
@@ -286,12 +277,9 @@ static void count_tick(const knurl_tick_output *output, void *user) {
 
 static void set_up_callback(void (*what)(void)) {
     knurl_loop_desc desc;
-    memset(&s, 0, sizeof s);
+    set_up_without_loop(0);
     at_fifty = what;
     calls = 0;
-    s.device = home_open(&s.home, 0);
-    home_place(&s.home, 0.0, 0.0, -0.001);
-    s.scene = wall_scene(&s.books);
     knurl_loop_desc_init(&desc, sizeof desc);
     desc.device = s.device;
     desc.scene = s.scene;
@@ -317,7 +305,7 @@ static void run_to_fifty(int is_stepped) {
         assert_int_equal(knurl_loop_start(s.loop), KNURL_OK);
         assert_int_equal(knurl_loop_wait(s.loop, 10.0), 1);
     }
-    assert_int_equal(stats_of(s.loop).ticks, 50);
+    assert_int_equal(loop_stats(s.loop).ticks, 50);
     assert_true(motor() == 0.0);
 }
 
@@ -325,11 +313,9 @@ TEST(a_loop_that_is_destroyed_in_its_callback_only_ends) {
     for (int turn = 0; turn < 2; turn++) {
         set_up_callback(destroy_loop);
         run_to_fifty(turn);
-        assert_int_equal(stats_of(s.loop).state, KNURL_LOOP_DONE); /* it is still there */
-        knurl_loop_destroy(s.loop);                                /* outside of it */
-        knurl_device_close(s.device);
-        knurl_scene_destroy(s.scene);
-        check_all_gone();
+        assert_int_equal(loop_stats(s.loop).state, KNURL_LOOP_DONE); /* it is still there */
+        knurl_loop_destroy(s.loop);                                  /* outside of it */
+        end_device_and_scene();
     }
 }
 

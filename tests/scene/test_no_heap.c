@@ -68,37 +68,21 @@ void __wrap_free(void *memory) {
     __real_free(memory);
 }
 
-/* Those that take any number of arguments. */
-int __wrap_printf(const char *format, ...);
-int __wrap_fprintf(FILE *file, const char *format, ...);
-int __wrap_snprintf(char *text, size_t size, const char *format, ...);
+/* Those that take any number of arguments, by the function that takes them as a list. */
+#define WRAP_ANY(name, parameters, by_list)                                                                            \
+    int __wrap_##name parameters;                                                                                      \
+    int __wrap_##name parameters {                                                                                     \
+        va_list arguments;                                                                                             \
+        va_start(arguments, format);                                                                                   \
+        count_call();                                                                                                  \
+        const int written = by_list;                                                                                   \
+        va_end(arguments);                                                                                             \
+        return written;                                                                                                \
+    }
 
-int __wrap_printf(const char *format, ...) {
-    va_list arguments;
-    va_start(arguments, format);
-    count_call();
-    const int written = __real_vfprintf(stdout, format, arguments);
-    va_end(arguments);
-    return written;
-}
-
-int __wrap_fprintf(FILE *file, const char *format, ...) {
-    va_list arguments;
-    va_start(arguments, format);
-    count_call();
-    const int written = __real_vfprintf(file, format, arguments);
-    va_end(arguments);
-    return written;
-}
-
-int __wrap_snprintf(char *text, size_t size, const char *format, ...) {
-    va_list arguments;
-    va_start(arguments, format);
-    count_call();
-    const int written = __real_vsnprintf(text, size, format, arguments);
-    va_end(arguments);
-    return written;
-}
+WRAP_ANY(printf, (const char *format, ...), __real_vfprintf(stdout, format, arguments))
+WRAP_ANY(fprintf, (FILE * file, const char *format, ...), __real_vfprintf(file, format, arguments))
+WRAP_ANY(snprintf, (char *text, size_t size, const char *format, ...), __real_vsnprintf(text, size, format, arguments))
 
 static double hills(double x, double y) {
     return 0.002 * sin(60.0 * x) * cos(45.0 * y);

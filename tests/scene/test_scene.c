@@ -42,27 +42,26 @@ TEST(scene_descriptions_out_of_range_are_refused) {
     knurl_scene *scene = NULL;
     knurl_scene_desc good;
     knurl_scene_desc_init(&good, sizeof good);
-    knurl_scene_desc bad = good;
-    bad.max_surfaces = 0;
-    CHECK_REFUSED(knurl_scene_create(&bad, &scene), KNURL_ERROR_ARGUMENT, scene);
-    check_message("max_surfaces");
-    bad.max_surfaces = (1u << 20) + 1;
-    CHECK_REFUSED(knurl_scene_create(&bad, &scene), KNURL_ERROR_ARGUMENT, scene);
-    bad = good;
-    bad.hip_count = 0;
-    CHECK_REFUSED(knurl_scene_create(&bad, &scene), KNURL_ERROR_ARGUMENT, scene);
-    check_message("hip_count");
-    bad.hip_count = 9;
-    CHECK_REFUSED(knurl_scene_create(&bad, &scene), KNURL_ERROR_ARGUMENT, scene);
+    knurl_scene_desc bad;
+    const struct {
+        uint32_t *value, wrong;
+        const char *name;
+    } fields[] = {{&bad.max_surfaces, 0, "max_surfaces"},
+                  {&bad.max_surfaces, (1u << 20) + 1, "max_surfaces"},
+                  {&bad.hip_count, 0, "hip_count"},
+                  {&bad.hip_count, 9, "hip_count"},
+                  {&bad.struct_size, 0, "struct_size"}};
+    for (size_t i = 0; i < COUNT_OF(fields); i++) {
+        bad = good;
+        *fields[i].value = fields[i].wrong;
+        CHECK_REFUSED(knurl_scene_create(&bad, &scene), KNURL_ERROR_ARGUMENT, scene);
+        check_message(fields[i].name);
+    }
     bad = good;
     const knurl_allocator half = {NULL, NULL, NULL};
     bad.allocator = &half;
     CHECK_REFUSED(knurl_scene_create(&bad, &scene), KNURL_ERROR_ARGUMENT, scene);
     check_message("allocator");
-    bad = good;
-    bad.struct_size = 0;
-    CHECK_REFUSED(knurl_scene_create(&bad, &scene), KNURL_ERROR_ARGUMENT, scene);
-    check_message("struct_size");
 }
 
 TEST(a_scene_is_committed_once) {
@@ -225,24 +224,23 @@ TEST(materials_out_of_range_are_refused_by_name) {
 TEST(places_out_of_range_are_refused_by_name) {
     surface_parts good = surface_plane();
     surface_parts bad;
+    const struct {
+        double *values;
+        int count;
+        const char *name;
+    } fields[] = {{bad.desc.position, 3, "position"},
+                  {bad.desc.rotation, 3, "rotation"},
+                  {bad.desc.axis, 3, "axis"},
+                  {bad.desc.normal, 3, "normal"},
+                  {bad.plane.half_extents, 2, "half_extents"}};
     SCOPED_SCENE *scene = empty_scene(1);
-    for (size_t k = 0; k < COUNT_OF(NO_NUMBERS); k++) {
-        for (int axis = 0; axis < 3; axis++) {
-            bad = good;
-            bad.desc.position[axis] = NO_NUMBERS[k];
-            CHECK_ADD_REFUSED(scene, &bad, KNURL_ERROR_ARGUMENT, "position");
-            bad = good;
-            bad.desc.rotation[axis] = NO_NUMBERS[k];
-            CHECK_ADD_REFUSED(scene, &bad, KNURL_ERROR_ARGUMENT, "rotation");
-            bad = good;
-            bad.desc.axis[axis] = NO_NUMBERS[k];
-            CHECK_ADD_REFUSED(scene, &bad, KNURL_ERROR_ARGUMENT, "axis");
-            bad = good;
-            bad.desc.normal[axis] = NO_NUMBERS[k];
-            CHECK_ADD_REFUSED(scene, &bad, KNURL_ERROR_ARGUMENT, "normal");
-            bad = good;
-            bad.plane.half_extents[axis % 2] = NO_NUMBERS[k];
-            CHECK_ADD_REFUSED(scene, &bad, KNURL_ERROR_ARGUMENT, "half_extents");
+    for (size_t i = 0; i < COUNT_OF(fields); i++) {
+        for (int axis = 0; axis < fields[i].count; axis++) {
+            for (size_t k = 0; k < COUNT_OF(NO_NUMBERS); k++) {
+                bad = good;
+                fields[i].values[axis] = NO_NUMBERS[k];
+                CHECK_ADD_REFUSED(scene, &bad, KNURL_ERROR_ARGUMENT, fields[i].name);
+            }
         }
     }
     bad = good;
