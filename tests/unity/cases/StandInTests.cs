@@ -135,10 +135,10 @@ namespace Knurl.Tests
         [Test]
         public void AListenersExceptionLeavesInvoke()
         {
-            var what = new UnityEvent();
-            what.AddListener(() => { throw new InvalidOperationException(); });
-            what.AddListener(() => Told.Add("behind it"));
-            Assert.Throws<InvalidOperationException>(() => what.Invoke());
+            var what = new UnityEvent<int>();
+            what.AddListener(x => { throw new InvalidOperationException(); });
+            what.AddListener(x => Told.Add("behind it"));
+            Assert.Throws<InvalidOperationException>(() => what.Invoke(1));
             Assert.AreEqual("", Words(Told));
         }
 

@@ -29,12 +29,6 @@ namespace UnityEditor
         public static void CollapseUndoOperations(int group) { }
         public static void IncrementCurrentGroup() { }
 
-        public static void DestroyObjectImmediate(UnityEngine.Object o)
-        {
-            Check(o);
-            UnityEngine.Object.DestroyImmediate(o);
-        }
-
         public static T AddComponent<T>(GameObject go) where T : Component { return (T)AddComponent(go, typeof(T)); }
 
         public static Component AddComponent(GameObject go, Type type)

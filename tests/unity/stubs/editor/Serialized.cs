@@ -139,11 +139,6 @@ namespace UnityEditor
 
         public string name { get { return field.Name; } }
 
-        public bool hasMultipleDifferentValues
-        {
-            get { return !Array.TrueForAll(serializedObject.Read(field), value => Equals(value, Value)); }
-        }
-
         object Value
         {
             get { return serializedObject.Read(field)[0]; }
@@ -160,13 +155,6 @@ namespace UnityEditor
         }
         public bool boolValue { get { return (bool)Value; } set { Value = value; } }
         public string stringValue { get { return (string)Value; } set { Value = value; } }
-
-        /// The place among the enum's values, not the value.
-        public int enumValueIndex
-        {
-            get { return Array.IndexOf(Enum.GetValues(field.FieldType), Value); }
-            set { Value = Enum.GetValues(field.FieldType).GetValue(value); }
-        }
 
         public UnityEngine.Object objectReferenceValue
         {

@@ -6,7 +6,6 @@ using System.Collections.Generic;
 
 namespace UnityEngine.Events
 {
-    public delegate void UnityAction();
     public delegate void UnityAction<T0>(T0 arg0);
     public delegate void UnityAction<T0, T1>(T0 arg0, T1 arg1);
 
@@ -17,12 +16,6 @@ namespace UnityEngine.Events
         bool isChanged;
 
         protected void Add(Delegate call) { listeners.Add(call); isChanged = true; }
-
-        protected void Remove(Delegate call)
-        {
-            listeners.RemoveAll(held => held.Equals(call));
-            isChanged = true;
-        }
 
         protected List<Delegate> Prepare()
         {
@@ -43,28 +36,9 @@ namespace UnityEngine.Events
     }
 
     [Serializable]
-    public class UnityEvent : UnityEventBase
-    {
-        public void AddListener(UnityAction call) { Add(call); }
-        public void RemoveListener(UnityAction call) { Remove(call); }
-        public void Invoke()
-        {
-            List<Delegate> calls = Prepare();
-            for (int i = 0; i < calls.Count; i++)
-            {
-                if (Allows(calls[i]))
-                {
-                    ((UnityAction)calls[i])();
-                }
-            }
-        }
-    }
-
-    [Serializable]
     public class UnityEvent<T0> : UnityEventBase
     {
         public void AddListener(UnityAction<T0> call) { Add(call); }
-        public void RemoveListener(UnityAction<T0> call) { Remove(call); }
         public void Invoke(T0 arg0)
         {
             List<Delegate> calls = Prepare();
@@ -82,7 +56,6 @@ namespace UnityEngine.Events
     public class UnityEvent<T0, T1> : UnityEventBase
     {
         public void AddListener(UnityAction<T0, T1> call) { Add(call); }
-        public void RemoveListener(UnityAction<T0, T1> call) { Remove(call); }
         public void Invoke(T0 arg0, T1 arg1)
         {
             List<Delegate> calls = Prepare();

@@ -243,14 +243,6 @@ namespace UnityEngine
             return Allowed(part, "indices") ? (int[])subMeshes[part].indices.Clone() : new int[0];
         }
 
-        public void GetIndices(List<int> to, int part)
-        {
-            Check(to);
-            Find(part);
-            Fill(to, GetIndices(part));
-        }
-
-
         public MeshTopology GetTopology(int part)
         {
             Living();
@@ -263,7 +255,6 @@ namespace UnityEngine
         }
 
         public uint GetIndexCount(int part) { return (uint)Find(part).indices.Length; }
-        public uint GetBaseVertex(int part) { Find(part); return 0; }
         public void UploadMeshData(bool markNoLongerReadable) { readable = readable && !markNoLongerReadable; }
 
         public int[] GetTriangles(int part)

@@ -67,24 +67,6 @@ namespace UnityEngine
             return m.rotation;
         }
 
-        public Vector3 eulerAngles
-        {
-            get
-            {
-                Matrix4x4 m = Matrix4x4.Rotate(this);
-                double sinX = Math.Max(-1.0, Math.Min(1.0, -m.m12));
-                double degrees = 180.0 / Math.PI;
-                return new Vector3(Positive(Math.Asin(sinX) * degrees), Positive(Math.Atan2(m.m02, m.m22) * degrees),
-                                   Positive(Math.Atan2(m.m10, m.m11) * degrees));
-            }
-        }
-
-        /// 0 to 360 degrees, but for a little below 0.
-        static float Positive(double angle)
-        {
-            return (float)(angle < -0.0001 * 180.0 / Math.PI ? angle + 360.0 : angle);
-        }
-
         public static Quaternion operator *(Quaternion a, Quaternion b)
         {
             return new Quaternion(a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
@@ -249,11 +231,6 @@ namespace UnityEngine
         {
             return new Vector3(m00 * p.x + m01 * p.y + m02 * p.z + m03, m10 * p.x + m11 * p.y + m12 * p.z + m13,
                                m20 * p.x + m21 * p.y + m22 * p.z + m23);
-        }
-
-        public Vector3 MultiplyPoint(Vector3 p)
-        {
-            return MultiplyPoint3x4(p) * (1f / (m30 * p.x + m31 * p.y + m32 * p.z + m33));
         }
 
         public Vector3 MultiplyVector(Vector3 v)

@@ -78,10 +78,6 @@ namespace UnityEngine
         {
             return new Vector3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
         }
-        public static Vector3 ProjectOnPlane(Vector3 v, Vector3 n)
-        {
-            return Dot(n, n) < Mathf.Epsilon ? v : v - n * (Dot(v, n) / Dot(n, n));
-        }
         public static Vector3 operator +(Vector3 a, Vector3 b) { return new Vector3(a.x + b.x, a.y + b.y, a.z + b.z); }
         public static Vector3 operator -(Vector3 a, Vector3 b) { return new Vector3(a.x - b.x, a.y - b.y, a.z - b.z); }
         public static Vector3 operator -(Vector3 a) { return new Vector3(-a.x, -a.y, -a.z); }
@@ -142,7 +138,6 @@ namespace UnityEngine
         public Color(float r, float g, float b) { this.r = r; this.g = g; this.b = b; a = 1f; }
 
         public static Color white { get { return new Color(1f, 1f, 1f); } }
-        public static Color grey { get { return new Color(0.5f, 0.5f, 0.5f); } }
         public static Color red { get { return new Color(1f, 0f, 0f); } }
         public static Color green { get { return new Color(0f, 1f, 0f); } }
         public static Color blue { get { return new Color(0f, 0f, 1f); } }
