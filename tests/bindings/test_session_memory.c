@@ -2,8 +2,6 @@
  * (CMakeLists.txt). SPDX-License-Identifier: MIT */
 #include "session_rig.h"
 
-#include <stdlib.h>
-
 static int64_t requests, held, refused; /* refused: the allocation that fails; 0: no allocation */
 
 static int is_refused(void) {

@@ -5,7 +5,6 @@
 
 #include <knurl/knurl.h>
 
-#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 

@@ -193,10 +193,8 @@ TEST_WITH(defaults_are_those_of_the_header, NULL, end_rig) {
 
 /* Refused, with a sentence that names the field. */
 static void refuse(knurl_result code, const char *named) {
-    struct {
-        knurl_loop *loop;
-    } out = {NULL};
-    CHECK_REFUSED(knurl_loop_create(&r.desc, &out.loop), code, out);
+    knurl_loop *loop = NULL;
+    CHECK_REFUSED(knurl_loop_create(&r.desc, &loop), code, loop);
     check_message(named);
     rig_init(&r); /* for the next one */
 }
@@ -236,10 +234,8 @@ TEST_WITH(a_missing_or_contradictory_part_is_refused_and_named, begin_rig, end_r
     use_scene(scene, NULL, NULL);
     r.desc.hip = 1; /* it has one */
     refuse(KNURL_ERROR_ARGUMENT, "hip");
-    struct {
-        knurl_loop *loop;
-    } out = {NULL};
-    CHECK_REFUSED(knurl_loop_create(NULL, &out.loop), KNURL_ERROR_ARGUMENT, out);
+    knurl_loop *loop = NULL;
+    CHECK_REFUSED(knurl_loop_create(NULL, &loop), KNURL_ERROR_ARGUMENT, loop);
 }
 
 TEST_WITH(a_scene_that_is_not_committed_is_refused, begin_rig, end_rig) {

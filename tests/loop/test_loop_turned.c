@@ -2,8 +2,6 @@
  * stepping, without waiting. SPDX-License-Identifier: MIT */
 #include "loop/bench.h"
 
-#include <stdlib.h>
-
 #define SLEW (3.3 / 5.0) /* N a tick: 3.3 N within 5 ms */
 
 /* N: distance of the last force from the previous one, shortened to its length. */

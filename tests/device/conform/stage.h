@@ -7,8 +7,7 @@
 
 #include "support/scenes.h"
 
-#define STAGE_FORCE 3.3  /* N: the device's greatest */
-#define STAGE_SLEW  0.66 /* N per tick: STAGE_FORCE within 5 ms */
+#define STAGE_FORCE 3.3 /* N: the device's greatest */
 
 typedef struct stage {
     judge j;

@@ -7,8 +7,6 @@
 #include "support/rig.h"
 #include "support/scenes.h"
 
-#include "base/vec3.h"
-
 /* Additional behaviour of this rig's device. */
 static struct {
     uint64_t reopens;        /* atomic: tries */

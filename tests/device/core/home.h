@@ -11,7 +11,6 @@
 #include "base/system.h"
 
 #include <knurl/device_functions.h>
-#include <knurl/fake.h>
 
 #define HOME_FORCE 5.0 /* N that it can play */
 #define HOME_LOG   16384

@@ -1,6 +1,5 @@
 /* Limits and protections depend on a device's information: each number must be in its range, or the device is not
  * opened. Ranges are from the comments in device.h. SPDX-License-Identifier: MIT */
-#include "support/double.h"
 #include "support/fake.h"
 #include "support/idle_device.h"
 

@@ -8,7 +8,6 @@
 #include "device/events.h"
 
 #include <pthread.h>
-#include <stdlib.h>
 
 #define POSTS   200000
 #define REPORTS 40000 /* of each writer */

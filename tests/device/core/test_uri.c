@@ -3,8 +3,6 @@
 
 #include "device/driver.h"
 
-#include <stdio.h>
-
 static char name[KNURL_URI_ROOM];
 static char library[KNURL_URI_ROOM];
 static char serial[KNURL_URI_ROOM];

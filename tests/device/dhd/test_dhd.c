@@ -4,13 +4,10 @@
 #include "device/ticked.h"
 
 #include "base/atomic.h"
-#include "base/system.h"
 #include "device/driver.h"
-#include "device/port.h"
 
 #include <knurl/device.h>
 #include <knurl/loop.h>
-#include <stdlib.h>
 
 static int end(void **state) {
     (void)close_device(state);

@@ -5,7 +5,6 @@
 #include "support/wait.h"
 
 #include "base/atomic.h"
-#include "base/system.h"
 #include "device/driver.h"
 #include "device/port.h"
 
@@ -13,7 +12,6 @@
 #include <knurl/loop.h>
 #include <knurl/scene.h>
 #include <math.h>
-#include <stdlib.h>
 
 #define SIGMA7 104
 #define OMEGA3 33

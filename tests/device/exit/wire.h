@@ -7,7 +7,6 @@
 #include "device/touch/stub_hd.h"
 
 #include <knurl/device_functions.h>
-#include <knurl/fake.h>
 #include <pthread.h>
 
 /** Shared by child and test. */

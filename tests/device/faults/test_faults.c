@@ -11,7 +11,6 @@
 
 #include <knurl/loop.h>
 #include <signal.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <sys/resource.h>
 #include <sys/wait.h>

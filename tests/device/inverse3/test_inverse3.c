@@ -4,7 +4,6 @@
 #include "device/inverse3/service.h"
 #include "device/ticked.h"
 
-#include "base/system.h"
 #include "device/port.h"
 
 #include <knurl/device.h>

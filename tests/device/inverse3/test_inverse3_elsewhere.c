@@ -66,16 +66,14 @@ static void *answer(void *nothing) {
 static int goes_elsewhere(const char *location) {
     char uri[64];
     pthread_t thread;
-    struct {
-        knurl_device *device;
-    } out = {NULL};
+    knurl_device *device = NULL;
     it.here = listen_somewhere();
     it.elsewhere = listen_somewhere();
     it.location = location;
     it.calls = 0;
     assert_int_equal(pthread_create(&thread, NULL, answer, NULL), 0);
     (void)snprintf(uri, sizeof uri, "inverse3:?port=%d", it.here.port);
-    CHECK_REFUSED(knurl_device_open(uri, &out.device), KNURL_ERROR_DEVICE_LOST, out);
+    CHECK_REFUSED(knurl_device_open(uri, &device), KNURL_ERROR_DEVICE_LOST, device);
     check_message("does not answer at localhost:");
     const int went = has_caller(&it.elsewhere, 0);
     assert_int_equal(pthread_join(thread, NULL), 0);

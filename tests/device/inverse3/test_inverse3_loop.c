@@ -4,8 +4,6 @@
 #include "support/close.h"
 #include "support/wait.h"
 
-#include "base/system.h"
-
 #include <knurl/device.h>
 #include <knurl/loop.h>
 

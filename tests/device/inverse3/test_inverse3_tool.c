@@ -84,10 +84,8 @@ TEST(a_failed_open_is_one_sentence_and_quick) {
 /* libwebsockets makes the process ignore it. */
 TEST(the_processs_handling_of_SIGPIPE_is_unchanged) {
     struct sigaction now;
-    struct {
-        knurl_device *device;
-    } out = {NULL};
-    CHECK_REFUSED(knurl_device_open("inverse3:?port=9", &out.device), KNURL_ERROR_DEVICE_LOST, out);
+    knurl_device *device = NULL;
+    CHECK_REFUSED(knurl_device_open("inverse3:?port=9", &device), KNURL_ERROR_DEVICE_LOST, device);
     assert_int_equal(sigaction(SIGPIPE, NULL, &now), 0);
     assert_true(now.sa_handler == SIG_DFL);
 }

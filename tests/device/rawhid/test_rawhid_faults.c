@@ -1,6 +1,5 @@
 /* Faults of a raw HID device: required results, and forbidden ones.
  * SPDX-License-Identifier: MIT */
-#include "device/port.h"
 #include "device/rawhid/driver_rig.h"
 
 /* --- faults --- */

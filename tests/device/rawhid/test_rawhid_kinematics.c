@@ -7,7 +7,6 @@
 #include "device/rawhid/hid_sim.h"
 #include "device/rawhid/kinematics.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 
 #define PI   3.14159265358979323846

@@ -3,7 +3,6 @@
 #include "device/ticked.h"
 
 #include "base/system.h"
-#include "device/port.h"
 
 static int end(void **state) {
     (void)state;

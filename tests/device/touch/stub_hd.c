@@ -4,8 +4,6 @@
  * errors go on one stack and the current device is one for all threads. SPDX-License-Identifier: MIT */
 #include "stub_state.h"
 
-#include "support/double.h"
-
 stub_state hd = {
     .time = {knurl_system_now_ns, knurl_system_sleep_until_ns, knurl_system_start_thread, knurl_system_join_thread},
     .current = NONE,
