@@ -16,7 +16,6 @@ TEST_WITH(deadlines_are_absolute_and_do_not_drift, NULL, end_rig) {
         r.desc.ramp_s = 0.0;
         r.busy = (int64_t)(0.3e9 / rates[i]); /* a tick's duration must not shift the next one */
         const int64_t start = r.now;
-        rig_create(&r);
         rig_run(&r);
         assert_true(r.sleeps >= 6000);
         for (int64_t cycle = 0; cycle < 6000; cycle++) {
@@ -39,7 +38,6 @@ TEST_WITH(a_late_tick_is_counted_and_missed_cycles_are_skipped, NULL, end_rig) {
         r.late = late;
         r.late_count = COUNT_OF(late);
         r.desc.tick_limit = 40;
-        rig_create(&r);
         rig_run(&r);
         const knurl_loop_stats stats = rig_stats(&r);
         assert_int_equal(stats.ticks, 40); /* skipped cycles are no ticks */
@@ -60,7 +58,6 @@ TEST_WITH(a_force_that_takes_too_long_makes_no_burst, NULL, end_rig) {
         r.busy = (int64_t)(periods[i] * 1e6);
         r.desc.tick_limit = 100;
         const int64_t start = r.now;
-        rig_create(&r);
         rig_run(&r);
         for (int tick = 1; tick < 100; tick++) {
             assert_true((r.called_at[tick] - start) / 1000000 > (r.called_at[tick - 1] - start) / 1000000);
@@ -89,7 +86,6 @@ TEST_WITH(jitter_is_how_late_the_loop_wakes, begin_rig, end_rig) {
     r.late = late;
     r.late_count = COUNT_OF(late);
     r.desc.tick_limit = COUNT_OF(late);
-    rig_create(&r);
     rig_run(&r);
     const knurl_loop_stats stats = rig_stats(&r);
     CHECK_CLOSE(stats.jitter_ns.p50, (double)sorted[999], 0.03 * (double)sorted[999]);
@@ -101,7 +97,6 @@ TEST_WITH(jitter_is_how_late_the_loop_wakes, begin_rig, end_rig) {
 TEST_WITH(tick_time_is_that_of_the_callback_alone, begin_rig, end_rig) {
     r.busy = 12345;
     r.desc.tick_limit = 500;
-    rig_create(&r);
     rig_run(&r);
     const knurl_loop_stats stats = rig_stats(&r);
     CHECK_CLOSE(stats.tick_ns.p50, 12345.0, 0.03 * 12345.0);
@@ -133,8 +128,7 @@ TEST_WITH(the_callback_is_called_once_a_tick_and_what_it_gives_is_written, begin
 
 TEST_WITH(a_force_that_nobody_sets_is_none, begin_rig, end_rig) {
     memset(r.force, 0, sizeof r.force);
-    rig_create(&r);
-    assert_int_equal(knurl_loop_step(r.loop, 3), KNURL_OK);
+    rig_step(&r, 3);
     for (int axis = 0; axis < 3; axis++) {
         CHECK_SAME(r.written[2][axis], 0.0L);
     }
@@ -142,24 +136,22 @@ TEST_WITH(a_force_that_nobody_sets_is_none, begin_rig, end_rig) {
 
 TEST_WITH(stepping_runs_so_many_ticks_and_sleeps_for_none, begin_rig, end_rig) {
     r.desc.tick_limit = 100;
-    rig_create(&r);
-    assert_int_equal(knurl_loop_step(r.loop, 0), KNURL_OK);
+    rig_step(&r, 0);
     assert_int_equal(r.calls, 0);
-    assert_int_equal(knurl_loop_step(r.loop, 30), KNURL_OK);
+    rig_step(&r, 30);
     assert_int_equal(r.calls, 30);
     assert_int_equal(rig_stats(&r).state, KNURL_LOOP_RUNNING);
-    assert_int_equal(knurl_loop_step(r.loop, 1000), KNURL_OK);
+    rig_step(&r, 1000);
     assert_int_equal(r.calls, 100);
     assert_int_equal(rig_stats(&r).state, KNURL_LOOP_DONE);
-    assert_int_equal(knurl_loop_step(r.loop, 1000), KNURL_OK); /* it is over */
+    rig_step(&r, 1000); /* it is over */
     assert_int_equal(r.calls, 100);
     assert_int_equal(rig_stats(&r).ticks, 100);
     assert_int_equal(r.sleeps, 0);
 }
 
 TEST_WITH(without_a_limit_a_loop_goes_on, begin_rig, end_rig) {
-    rig_create(&r);
-    assert_int_equal(knurl_loop_step(r.loop, 50000), KNURL_OK);
+    rig_step(&r, 50000);
     assert_int_equal(r.calls, 50000);
     assert_int_equal(rig_stats(&r).state, KNURL_LOOP_RUNNING);
     rig_destroy(&r);
@@ -179,7 +171,6 @@ TEST_WITH(at_the_end_the_force_goes_to_zero_by_a_straight_ramp, NULL, end_rig) {
         r.desc.ramp_s = cases[i / 2].ramp;
         r.desc.update_rate_hz = cases[i / 2].rate;
         r.desc.tick_limit = 30;
-        rig_create(&r);
         rig_go(&r, i % 2, 30);
         assert_in_range(r.writes, 30 + steps - 1, 30 + steps + 1);
         for (uint64_t k = 30; k < r.writes; k++) {
@@ -197,8 +188,7 @@ TEST_WITH(at_the_end_the_force_goes_to_zero_by_a_straight_ramp, NULL, end_rig) {
 TEST_WITH(the_ramp_begins_at_what_was_played_not_at_what_was_asked_for, begin_rig, end_rig) {
     r.force[1] = 40.0; /* of 2 N */
     r.desc.tick_limit = 10;
-    rig_create(&r);
-    assert_int_equal(knurl_loop_step(r.loop, 10), KNURL_OK);
+    rig_step(&r, 10);
     CHECK_CLOSE(r.written[9][1], 2.0, 1e-12);
     for (uint64_t k = 10; k < r.writes; k++) {
         CHECK_CLOSE(r.written[k - 1][1] - r.written[k][1], 2.0 / (double)(r.writes - 10), 1e-12);
@@ -208,8 +198,7 @@ TEST_WITH(the_ramp_begins_at_what_was_played_not_at_what_was_asked_for, begin_ri
 TEST_WITH(without_a_ramp_the_force_is_zeroed_at_once, begin_rig, end_rig) {
     r.desc.ramp_s = 0.0;
     r.desc.tick_limit = 10;
-    rig_create(&r);
-    assert_int_equal(knurl_loop_step(r.loop, 10), KNURL_OK);
+    rig_step(&r, 10);
     assert_in_range(r.writes, 10, 11);
     rig_check_halted(&r);
 }
@@ -222,8 +211,7 @@ TEST_WITH(a_force_that_is_not_finite_is_played_as_none_and_ends_as_none, begin_r
     r.special_call = 4;
     r.special = give_nan;
     r.desc.tick_limit = 10;
-    rig_create(&r);
-    assert_int_equal(knurl_loop_step(r.loop, 10), KNURL_OK);
+    rig_step(&r, 10);
     for (uint64_t k = 5; k < r.writes; k++) {
         for (int axis = 0; axis < 3; axis++) {
             CHECK_SAME(r.written[k][axis], 0.0L);
@@ -238,7 +226,6 @@ TEST_WITH(a_lost_device_ends_the_loop_with_its_force_zeroed, NULL, end_rig) {
         rig_init(&r);
         r.reads_left = i < 2 ? 70 : UINT64_MAX;
         r.writes_left = i < 2 ? UINT64_MAX : 70;
-        rig_create(&r);
         rig_go(&r, threaded, 1000);
         assert_int_equal(rig_stats(&r).state, KNURL_LOOP_LOST);
         assert_in_range(rig_stats(&r).ticks, 70, 71); /* the tick whose force could not be written may count */
@@ -254,7 +241,6 @@ TEST_WITH(a_lost_device_ends_the_loop_with_its_force_zeroed, NULL, end_rig) {
 TEST_WITH(a_device_that_is_lost_in_the_ramp_ends_it, begin_rig, end_rig) {
     r.desc.tick_limit = 50;
     r.writes_left = 55;
-    rig_create(&r);
     rig_run(&r);
     assert_int_equal(r.writes, 55);
     rig_check_halted(&r);
@@ -280,14 +266,12 @@ TEST_WITH(a_stop_before_the_start_means_that_it_ends_at_once, NULL, end_rig) {
 TEST_WITH(a_loop_runs_once_and_in_one_way, begin_rig, end_rig) {
     char nothing = 0;
     r.desc.tick_limit = 10;
-    rig_create(&r);
     rig_run(&r);
     CHECK_REFUSED(knurl_loop_start(r.loop), KNURL_ERROR_STATE, nothing);
     CHECK_REFUSED(knurl_loop_step(r.loop, 1), KNURL_ERROR_STATE, nothing);
     assert_int_equal(r.calls, 10);
     rig_destroy(&r);
-    rig_create(&r);
-    assert_int_equal(knurl_loop_step(r.loop, 1), KNURL_OK);
+    rig_step(&r, 1);
     CHECK_REFUSED(knurl_loop_start(r.loop), KNURL_ERROR_STATE, nothing);
     rig_destroy(&r);
     knurl_loop_destroy(NULL);
@@ -303,7 +287,6 @@ TEST_WITH(a_stop_from_a_callback_only_asks_and_its_tick_is_the_last, NULL, end_r
         rig_init(&r);
         r.special_call = 5;
         r.special = stop_now;
-        rig_create(&r);
         rig_go(&r, threaded, 1000);
         assert_int_equal(r.seen, 1);
         assert_int_equal(r.calls, 6);
@@ -316,19 +299,17 @@ TEST_WITH(a_stop_from_a_callback_only_asks_and_its_tick_is_the_last, NULL, end_r
 }
 
 TEST_WITH(a_stepped_loop_that_is_asked_to_stop_ends_in_its_next_step, begin_rig, end_rig) {
-    rig_create(&r);
-    assert_int_equal(knurl_loop_step(r.loop, 10), KNURL_OK);
+    rig_step(&r, 10);
     knurl_loop_request_stop(r.loop);
     knurl_loop_stop(r.loop);
-    assert_int_equal(knurl_loop_step(r.loop, 10), KNURL_OK);
+    rig_step(&r, 10);
     assert_int_equal(r.calls, 10);
     assert_int_equal(rig_stats(&r).state, KNURL_LOOP_DONE);
     CHECK_SAME(r.written[r.writes - 1][1], 0.0L);
 }
 
 TEST_WITH(destroying_a_loop_that_is_being_stepped_takes_the_force_away, begin_rig, end_rig) {
-    rig_create(&r);
-    assert_int_equal(knurl_loop_step(r.loop, 10), KNURL_OK);
+    rig_step(&r, 10);
     rig_destroy(&r);
     CHECK_SAME(r.written[r.writes - 1][1], 0.0L);
     rig_check_halted(&r);
@@ -336,7 +317,6 @@ TEST_WITH(destroying_a_loop_that_is_being_stepped_takes_the_force_away, begin_ri
 
 TEST_WITH(a_new_loop_on_a_halted_device_plays, begin_rig, end_rig) {
     knurl_device_halt(&r.device);
-    rig_create(&r);
-    assert_int_equal(knurl_loop_step(r.loop, 100), KNURL_OK);
+    rig_step(&r, 100);
     CHECK_SAME(r.written[99][1], 1.0L);
 }

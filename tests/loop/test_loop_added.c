@@ -13,7 +13,6 @@
 
 static void begin(double depth) {
     bench_open(depth);
-    bench_create();
     step(60);
 }
 

@@ -32,7 +32,6 @@ static double rms_of_loops(double seconds) {
     b.desc.tick_callback = add_squares;
     b.desc.user = &sum;
     for (int run = 0; run < (int)(120.0 / seconds); run++) {
-        bench_create();
         step((uint64_t)(1000.0 * seconds));
         bench_end_loop();
     }
@@ -53,7 +52,6 @@ TEST_WITH(two_minutes_of_pressing_are_two_minutes_in_however_many_loops, NULL, e
 /* Three seconds of 3.3 N, then the HIP is 10 mm off the wall. Returns theta as the loop left it. */
 static double warm_up(void) {
     bench_open(DEPTH);
-    bench_create();
     step(3000);
     bench_end_loop();
     b.position[1] = 0.01;
@@ -67,7 +65,6 @@ TEST_WITH(between_loops_motors_cool_by_the_loops_clock, NULL, end_bench) {
         const double warm = warm_up();
         assert_true(warm > 0.6);
         b.now += (int64_t)(1e9 * pauses[i]);
-        bench_create();
         step(1);
         CHECK_CLOSE(heat(), warm * exp(-(pauses[i] + 0.001) / 60.0), 1e-9);
         CHECK_CLOSE(stats().heat, heat(), 1e-9);
@@ -91,7 +88,6 @@ TEST_WITH(what_another_clock_says_cools_nothing, NULL, end_bench) {
     elsewhere.now = b.now + INT64_C(600000000000);
     other.user = &elsewhere;
     b.desc.clock = &other;
-    bench_create();
     step(1);
     CHECK_CLOSE(heat(), warm * exp(-0.001 / 60.0), 1e-9);
 }
@@ -99,7 +95,6 @@ TEST_WITH(what_another_clock_says_cools_nothing, NULL, end_bench) {
 TEST_WITH(a_clock_that_was_set_back_cools_nothing, NULL, end_bench) {
     const double warm = warm_up();
     b.now -= INT64_C(900000000);
-    bench_create();
     step(1);
     CHECK_CLOSE(heat(), warm * exp(-0.001 / 60.0), 1e-9);
 }
@@ -145,14 +140,12 @@ TEST_WITH(what_a_hip_was_told_of_its_motors_is_no_matter_to_them, NULL, end_benc
         hip.continuous_force = hips[i].continuous;
         hip.protections = KNURL_PROTECT_ALL & ~hips[i].without;
         assert_int_equal(knurl_scene_configure_hip(b.scene, 0, &hip), KNURL_OK);
-        bench_create();
         step(2000);
         bench_end_loop();
         b.position[1] = 0.01;
         hip.continuous_force = KNURL_DEFAULT;
         hip.protections = KNURL_PROTECT_ALL;
         assert_int_equal(knurl_scene_configure_hip(b.scene, 0, &hip), KNURL_OK);
-        bench_create();
         step(1);
         /* 3.3 N within some ticks, and a ramp at the end: 2 s to 1 % */
         CHECK_CLOSE(heat(), 3.3 * 3.3 / (0.88 * 0.88) * (1.0 - exp(-2.0 / 60.0)), 0.005);
@@ -186,7 +179,6 @@ static void check_next_event(int32_t code) {
 /* 21 steps down, 21 up; walls come back with 0.5 mm a tick. */
 TEST_WITH(a_pause_takes_the_force_away_by_the_ramp_and_a_resume_brings_it_back, NULL, end_bench) {
     bench_open(DEPTH);
-    bench_create();
     step(100);
     assert_int_equal(stats().paused, 0);
     knurl_loop_pause(b.loop);
@@ -213,7 +205,6 @@ TEST_WITH(a_pause_takes_the_force_away_by_the_ramp_and_a_resume_brings_it_back, 
 
 TEST_WITH(paused_the_hip_moves_and_nothing_is_felt, NULL, end_bench) {
     bench_open(DEPTH);
-    bench_create();
     step(100);
     knurl_loop_pause(b.loop);
     step(30);
@@ -275,7 +266,6 @@ TEST_WITH(a_loop_can_begin_paused_and_end_paused, NULL, end_bench) {
 
 TEST_WITH(a_resume_half_way_down_goes_on_from_there, NULL, end_bench) {
     bench_open(0.005); /* 2 N */
-    bench_create();
     step(100);
     knurl_loop_pause(b.loop);
     step(10);

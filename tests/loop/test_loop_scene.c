@@ -59,7 +59,7 @@ static void play(record *into, uint64_t steps) {
     r.desc.tick_limit = TICKS;
     rig_create(&r);
     while (steps > 0 && rig_stats(&r).state != KNURL_LOOP_DONE) {
-        assert_int_equal(knurl_loop_step(r.loop, steps), KNURL_OK);
+        rig_step(&r, steps);
     }
     if (steps == 0) {
         rig_run(&r);
@@ -96,8 +96,7 @@ TEST_WITH(the_tick_callback_sees_each_tick_once_with_the_force_that_is_written, 
     memset(&seen, 0, sizeof seen);
     SCOPED_SCENE *scene = make_scene(1);
     use_scene(scene, take, &seen);
-    rig_create(&r);
-    assert_int_equal(knurl_loop_step(r.loop, 50), KNURL_OK); /* x = 1 mm a tick, y = 0: on the plate */
+    rig_step(&r, 50); /* x = 1 mm a tick, y = 0: on the plate */
     assert_int_equal(seen.count, 50);
     for (size_t i = 0; i < 50; i++) {
         assert_int_equal(seen.outputs[i].tick, i);
@@ -116,18 +115,16 @@ TEST_WITH(a_recorder_delays_no_force, begin_rig, end_rig) {
     uint64_t late = 0;
     SCOPED_SCENE *scene = make_scene(1);
     use_scene(scene, count_writes, &late);
-    rig_create(&r);
-    assert_int_equal(knurl_loop_step(r.loop, 50), KNURL_OK);
+    rig_step(&r, 50);
     rig_destroy(&r);
     assert_int_equal(late, 0); /* each tick's force had been written before */
 }
 
 /* After a halt the force ramps up, and so does the recorded one. */
 TEST_WITH(after_a_halt_the_force_climbs_back_over_the_ramp, begin_rig, end_rig) {
-    rig_create(&r);
-    assert_int_equal(knurl_loop_step(r.loop, 5), KNURL_OK);
+    rig_step(&r, 5);
     knurl_device_halt(&r.device);
-    assert_int_equal(knurl_loop_step(r.loop, 40), KNURL_OK);
+    rig_step(&r, 40);
     CHECK_SAME(r.written[5][1], 0.0L);
     for (int tick = 6; tick < 45; tick++) {
         const double rise = r.written[tick][1] - r.written[tick - 1][1];
@@ -140,10 +137,9 @@ TEST_WITH(after_a_halt_the_force_climbs_back_over_the_ramp, begin_rig, end_rig) 
 
 TEST_WITH(a_force_beyond_the_motors_climbs_back_over_the_ramp_as_well, begin_rig, end_rig) {
     r.force[1] = 40.0; /* of 2 N */
-    rig_create(&r);
-    assert_int_equal(knurl_loop_step(r.loop, 5), KNURL_OK);
+    rig_step(&r, 5);
     knurl_device_halt(&r.device);
-    assert_int_equal(knurl_loop_step(r.loop, 40), KNURL_OK);
+    rig_step(&r, 40);
     for (int tick = 6; tick < 45; tick++) {
         assert_true(r.written[tick][1] - r.written[tick - 1][1] <= 2.0 / 20.0 + 1e-12);
     }
@@ -158,10 +154,9 @@ TEST_WITH(while_it_climbs_back_the_record_tells_what_is_written, begin_rig, end_
     assert_int_equal(knurl_device_open("fake", &device), KNURL_OK);
     r.desc.device = device;
     use_scene(scene, take, &seen);
-    rig_create(&r);
-    assert_int_equal(knurl_loop_step(r.loop, 1000), KNURL_OK);
+    rig_step(&r, 1000);
     knurl_device_halt(device);
-    assert_int_equal(knurl_loop_step(r.loop, 100), KNURL_OK);
+    rig_step(&r, 100);
     for (int axis = 0; axis < 3; axis++) {
         CHECK_SAME(seen.outputs[1000].force[axis], 0.0L);
         CHECK_SAME(seen.outputs[1000].device_force[axis], 0.0L);
@@ -274,8 +269,7 @@ TEST_WITH(a_hip_takes_its_force_limit_from_its_device_unless_it_has_one, NULL, e
         assert_int_equal(knurl_scene_configure_hip(scene, 0, &hip), KNURL_OK);
         rig_init(&r);
         use_scene(scene, NULL, NULL);
-        rig_create(&r);
-        assert_int_equal(knurl_loop_step(r.loop, 2), KNURL_OK);
+        rig_step(&r, 2);
         assert_int_equal(knurl_scene_get_tick(scene, 0, &output, NULL), KNURL_OK);
         assert_int_equal(output.tick, 1);
         rig_destroy(&r);
@@ -293,7 +287,7 @@ TEST_WITH(stats_of_a_struct_whose_size_was_never_set_are_refused, begin_rig, end
     CHECK_REFUSED(knurl_loop_get_stats(r.loop, &stats), KNURL_ERROR_ARGUMENT, stats);
     knurl_loop_stats_init(&stats, 16); /* an older caller's: two fields */
     memset((char *)&stats + 16, 0x77, sizeof stats - 16);
-    assert_int_equal(knurl_loop_step(r.loop, 3), KNURL_OK);
+    rig_step(&r, 3);
     assert_int_equal(knurl_loop_get_stats(r.loop, &stats), KNURL_OK);
     assert_int_equal(stats.ticks, 3);
     assert_int_equal(*((unsigned char *)&stats + 16), 0x77);

@@ -26,7 +26,6 @@ static void step_and_check(int ticks) {
 TEST_WITH(without_a_heartbeat_the_scene_tells_no_force_and_its_motors_cool, NULL, end_bench) {
     bench_open(DEPTH);
     b.desc.heartbeat_s = 0.05;
-    bench_create();
     step_and_check(40);
     CHECK_CLOSE(written_now(), 3.3, 1e-12);
     step_and_check(60);
@@ -45,7 +44,6 @@ TEST_WITH(without_a_heartbeat_the_scene_tells_no_force_and_its_motors_cool, NULL
 TEST_WITH(a_force_that_comes_back_is_told_as_it_is_sent_and_comes_back_whole, NULL, end_bench) {
     bench_open(DEPTH);
     b.desc.heartbeat_s = 0.05;
-    bench_create();
     step(60000);
     for (int k = 0; k < 30; k++) {
         const double before = written_now();
@@ -60,7 +58,6 @@ TEST_WITH(a_force_that_comes_back_is_told_as_it_is_sent_and_comes_back_whole, NU
 
 TEST_WITH(after_a_halt_what_is_told_climbs_with_what_is_sent, NULL, end_bench) {
     bench_open(DEPTH);
-    bench_create();
     step_and_check(40);
     knurl_device_halt(&b.device);
     step_and_check(1);
@@ -77,7 +74,6 @@ TEST_WITH(after_the_end_the_scene_tells_no_force, NULL, end_bench) {
         b.desc.tick_limit = end == LIMIT || end == NO_RAMP || end == LOST_IN_RAMP ? 40 : 0;
         b.desc.ramp_s = end == NO_RAMP ? 0.0 : 0.02;
         b.writes_left = end == LOST ? 40 : end == LOST_IN_RAMP ? 45 : UINT64_MAX;
-        bench_create();
         step(39);
         CHECK_CLOSE(vec3_length(bench_tick().force), 3.3, 1e-12);
         if (end == STOPPED) {
@@ -99,7 +95,6 @@ TEST_WITH(the_ramp_at_the_end_is_told_step_by_step_and_is_no_tick, NULL, end_ben
     bench_open(DEPTH);
     b.watches_writes = 1;
     b.desc.tick_limit = 40;
-    bench_create();
     step(40);
     assert_int_equal(bench_counts().ticks, 40);
     assert_int_equal(bench_counts().contact_ticks, 40);
@@ -113,7 +108,6 @@ TEST_WITH(the_ramp_at_the_end_is_told_step_by_step_and_is_no_tick, NULL, end_ben
 TEST_WITH(a_halt_in_the_ramp_at_the_end_is_reported_as_zero, NULL, end_bench) {
     bench_open(DEPTH);
     b.watches_writes = 1;
-    bench_create();
     step(39);
     knurl_loop_stop(b.loop);
     knurl_device_halt(&b.device);

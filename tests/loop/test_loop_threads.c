@@ -64,7 +64,6 @@ TEST_WITH(what_was_locked_is_unlocked_when_it_is_given_back, NULL, end_rig) {
     for (int turn = 0; turn < 5; turn++) {
         init_real();
         r.desc.tick_limit = 5;
-        rig_create(&r);
         rig_run(&r);
         rig_destroy(&r);
         assert_true(locked_kb() <= before); /* the pages are the host's again */
@@ -197,7 +196,6 @@ static void stop_here(rig *self) {
 TEST_WITH(a_stop_from_the_callback_ends_a_real_run, begin_real, end_rig) {
     r.special_call = 30;
     r.special = stop_here;
-    rig_create(&r);
     rig_run(&r);
     assert_int_equal(r.calls, 31);
     assert_int_equal(rig_stats(&r).state, KNURL_LOOP_DONE);
@@ -228,7 +226,6 @@ TEST_WITH(a_device_that_is_lost_ends_a_real_run, begin_real, end_rig) {
     SCOPED_DEVICE *device = NULL;
     assert_int_equal(knurl_device_open("fake:?lose_at=0.1", &device), KNURL_OK);
     r.desc.device = device;
-    rig_create(&r);
     rig_run(&r);
     assert_int_equal(rig_stats(&r).state, KNURL_LOOP_LOST);
     assert_int_equal(rig_stats(&r).ticks, 100);
@@ -249,7 +246,6 @@ TEST_WITH(while_a_callback_stalls_the_watchdog_zeroes_the_force_and_it_comes_bac
     r.special_call = 100;
     r.special = stall;
     r.desc.tick_limit = 600;
-    rig_create(&r);
     rig_run(&r);
     assert_int_equal(r.seen, 1); /* zeroed while the callback stood */
     assert_true(rig_stats(&r).watchdog_trips >= 1);
@@ -267,7 +263,6 @@ TEST_WITH(without_a_watchdog_the_force_is_zeroed_only_after_the_stall, begin_rea
     r.special_call = 50;
     r.special = stall;
     r.desc.tick_limit = 60;
-    rig_create(&r);
     rig_run(&r);
     assert_int_equal(r.seen, 0);
     assert_int_equal(rig_stats(&r).watchdog_trips, 0);
@@ -281,7 +276,6 @@ TEST_WITH(a_ramp_longer_than_the_watchdogs_patience_is_played_to_its_end, begin_
     r.desc.ramp_s = 0.8;
     r.desc.watchdog_s = 0.25;
     r.desc.tick_limit = 50;
-    rig_create(&r);
     rig_run(&r);
     assert_int_equal(rig_stats(&r).watchdog_trips, 0);
     assert_in_range(r.writes, 849, 851);

@@ -117,7 +117,6 @@ static int squeeze(double ramp_s, int pause_at) {
     parts.material.stiffness = 1000.0;
     lid = add_surface(b.scene, &parts);
     b.desc.ramp_s = ramp_s;
-    bench_create();
     step(1);
     for (int tick = 0; tick < 100; tick++) {
         if (tick == pause_at) {

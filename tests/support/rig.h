@@ -143,8 +143,11 @@ static inline void rig_create(rig *self) {
     assert_int_equal(result, KNURL_OK);
 }
 
-/** Runs a thread to its end, which must come within 10 s. */
+/** Runs a thread to its end, which must come within 10 s; it creates the loop if there is none. */
 static inline void rig_run(rig *self) {
+    if (!self->loop) {
+        rig_create(self);
+    }
     assert_int_equal(knurl_loop_start(self->loop), KNURL_OK);
     assert_int_equal(knurl_loop_wait(self->loop, 10.0), 1);
 }
@@ -159,12 +162,20 @@ static inline void rig_check_halted(const rig *self) {
     assert_true(knurl_port_is_halted(&self->device));
 }
 
+/** So many ticks; it creates the loop if there is none. */
+static inline void rig_step(rig *self, uint64_t ticks) {
+    if (!self->loop) {
+        rig_create(self);
+    }
+    assert_int_equal(knurl_loop_step(self->loop, ticks), KNURL_OK);
+}
+
 /** Runs so many ticks: on its thread, to its end, or step by step. */
 static inline void rig_go(rig *self, int threaded, uint64_t ticks) {
     if (threaded) {
         rig_run(self);
     } else {
-        assert_int_equal(knurl_loop_step(self->loop, ticks), KNURL_OK);
+        rig_step(self, ticks);
     }
 }
 

@@ -8,8 +8,7 @@ TEST_WITH(a_stepped_loop_looks_for_its_device_every_beat_and_comes_back_by_the_r
     r.desc.reconnect = 1;
     r.reads_left = 70;
     extra.fails = 9;
-    rig_create(&r);
-    assert_int_equal(knurl_loop_step(r.loop, 200), KNURL_OK);
+    rig_step(&r, 200);
     const knurl_loop_stats stats = rig_stats(&r);
     assert_int_equal(stats.state, KNURL_LOOP_RUNNING);
     assert_int_equal(extra.reopens, 10);
@@ -47,7 +46,6 @@ TEST_WITH(without_reconnect_a_lost_device_ends_the_loop_and_nobody_looks_for_it,
         init_real();
         r.desc.reconnect = 0;
         r.reads_left = 70;
-        rig_create(&r);
         rig_go(&r, threaded, 1000);
         assert_int_equal(rig_stats(&r).state, KNURL_LOOP_LOST);
         assert_int_equal(rig_stats(&r).ticks, 70);
@@ -69,9 +67,9 @@ TEST_WITH(the_tick_limit_counts_ticks_and_not_beats_without_a_device, NULL, end_
         if (threaded) {
             rig_run(&r);
         } else {
-            assert_int_equal(knurl_loop_step(r.loop, 100), KNURL_OK);
+            rig_step(&r, 100);
             assert_int_equal(rig_stats(&r).state, KNURL_LOOP_RUNNING);
-            assert_int_equal(knurl_loop_step(r.loop, 100), KNURL_OK);
+            rig_step(&r, 100);
         }
         assert_int_equal(rig_stats(&r).state, KNURL_LOOP_DONE);
         assert_int_equal(rig_stats(&r).ticks, 100);
@@ -94,9 +92,9 @@ TEST_WITH(a_stop_while_the_device_is_lost_ends_the_loop, NULL, end_rig) {
             knurl_loop_stop(r.loop);
             assert_true(now_ns() - asked < 2000000000);
         } else {
-            assert_int_equal(knurl_loop_step(r.loop, 100), KNURL_OK);
+            rig_step(&r, 100);
             knurl_loop_request_stop(r.loop);
-            assert_int_equal(knurl_loop_step(r.loop, 1), KNURL_OK);
+            rig_step(&r, 1);
         }
         assert_int_equal(rig_stats(&r).state, KNURL_LOOP_DONE);
         assert_int_equal(r.writes, 70);
@@ -116,7 +114,7 @@ TEST_WITH(a_loop_can_be_destroyed_in_every_state, NULL, end_rig) {
         if (in == STOPPED_BEFORE) {
             knurl_loop_stop(r.loop);
         } else if (in == STEPPED || in == STEPPED_LOST) {
-            assert_int_equal(knurl_loop_step(r.loop, 40), KNURL_OK);
+            rig_step(&r, 40);
         } else if (in != IDLE) {
             assert_int_equal(knurl_loop_start(r.loop), KNURL_OK);
             wait_for_ticks(10);
@@ -139,10 +137,9 @@ TEST_WITH(a_loop_can_be_destroyed_in_every_state, NULL, end_rig) {
 TEST_WITH(a_device_that_is_lost_while_it_is_written_is_halted_and_its_force_resumes, begin, end_rig) {
     r.desc.reconnect = 1;
     r.writes_left = 70;
-    rig_create(&r);
-    assert_int_equal(knurl_loop_step(r.loop, 71), KNURL_OK);
+    rig_step(&r, 71);
     rig_check_halted(&r);
-    assert_int_equal(knurl_loop_step(r.loop, 99), KNURL_OK);
+    rig_step(&r, 99);
     check_ramp_up(70);
     CHECK_EVENTS(KNURL_FAULT_LOST, KNURL_FAULT_RECONNECTED, KNURL_FAULT_RESUMED);
 }
@@ -151,8 +148,7 @@ TEST_WITH(a_device_that_is_lost_while_it_is_written_is_halted_and_its_force_resu
 
 TEST_WITH(before_the_first_tick_nothing_is_resumed, begin, end_rig) {
     extra.not_ready_to = 12;
-    rig_create(&r);
-    assert_int_equal(knurl_loop_step(r.loop, 100), KNURL_OK);
+    rig_step(&r, 100);
     assert_int_equal(rig_stats(&r).absences, 12);
     assert_int_equal(rig_stats(&r).ticks, 88);
     CHECK_EVENTS(0);
@@ -162,10 +158,9 @@ TEST_WITH(before_the_first_tick_nothing_is_resumed, begin, end_rig) {
 TEST_WITH(a_beat_without_a_position_writes_no_force_and_asks_for_none, begin, end_rig) {
     extra.not_ready_from = 50;
     extra.not_ready_to = 60;
-    rig_create(&r);
-    assert_int_equal(knurl_loop_step(r.loop, 55), KNURL_OK);
+    rig_step(&r, 55);
     assert_int_equal(rig_stats(&r).absent, 1);
-    assert_int_equal(knurl_loop_step(r.loop, 100), KNURL_OK);
+    rig_step(&r, 100);
     assert_int_equal(r.calls, 145);
     assert_int_equal(rig_stats(&r).ticks, 145);
     for (int k = 50; k < 60; k++) {
@@ -185,11 +180,10 @@ TEST_WITH(at_the_end_the_last_that_is_written_is_no_force_however_it_comes_to_th
         extra.not_ready_from = i < 2 ? 1000 : 53; /* in the middle of the ramp, at its start */
         extra.not_ready_from = i >= 4 ? 50 : extra.not_ready_from;
         extra.not_ready_to = 2000;
-        rig_create(&r);
-        assert_int_equal(knurl_loop_step(r.loop, 50), KNURL_OK);
+        rig_step(&r, 50);
         if (i >= 4) {
             knurl_loop_stop(r.loop);
-            assert_int_equal(knurl_loop_step(r.loop, 1), KNURL_OK);
+            rig_step(&r, 1);
         }
         assert_int_equal(rig_stats(&r).state, KNURL_LOOP_DONE);
         CHECK_SAME(r.written[49][1], 1.0L);
@@ -214,10 +208,9 @@ TEST_WITH(a_halt_lasts_until_the_force_that_begins_the_ramp_is_written, begin, e
     halts = 0;
     r.desc.scene = scene;
     r.desc.force_callback = NULL;
-    rig_create(&r);
-    assert_int_equal(knurl_loop_step(r.loop, 10), KNURL_OK);
+    rig_step(&r, 10);
     knurl_device_halt(&r.device);
-    assert_int_equal(knurl_loop_step(r.loop, 10), KNURL_OK);
+    rig_step(&r, 10);
     assert_int_equal(halts, 1u << 10);
     assert_int_equal(knurl_port_is_halted(&r.device), 0);
     assert_int_equal(r.writes, 20);
@@ -225,10 +218,9 @@ TEST_WITH(a_halt_lasts_until_the_force_that_begins_the_ramp_is_written, begin, e
 }
 
 TEST_WITH(after_a_halt_the_force_comes_back_by_the_ramp, begin, end_rig) {
-    rig_create(&r);
-    assert_int_equal(knurl_loop_step(r.loop, 50), KNURL_OK);
+    rig_step(&r, 50);
     knurl_device_halt(&r.device);
-    assert_int_equal(knurl_loop_step(r.loop, 50), KNURL_OK);
+    rig_step(&r, 50);
     CHECK_SAME(r.written[49][1], 1.0L);
     check_ramp_up(50);
     CHECK_EVENTS(KNURL_FAULT_RESUMED);

@@ -21,11 +21,6 @@ static void init_late(void) {
     r.desc.tick_limit = 90;
 }
 
-static void run(void) {
-    rig_create(&r);
-    rig_run(&r);
-}
-
 /* --- heartbeat --- */
 
 /* At tick t, counted from 0: with the last heartbeat before tick s, t - s ticks of 1 ms are silent. */
@@ -34,7 +29,6 @@ TEST_WITH(without_a_sign_of_life_the_force_goes_down_by_the_ramp_and_comes_back_
         init();
         r.desc.heartbeat_s = 0.05;
         r.desc.tick_limit = threaded ? 130 : 0;
-        rig_create(&r);
         rig_go(&r, threaded, 130);
         for (int k = 0; k < 49; k++) {
             CHECK_SAME(r.written[k][1], 1.0L);
@@ -51,7 +45,7 @@ TEST_WITH(without_a_sign_of_life_the_force_goes_down_by_the_ramp_and_comes_back_
         assert_int_equal(next_code(&r.device, 0), 0);
         if (!threaded) {
             knurl_loop_heartbeat(r.loop);
-            assert_int_equal(knurl_loop_step(r.loop, 40), KNURL_OK);
+            rig_step(&r, 40);
             for (int k = 131; k < 170; k++) {
                 CHECK_CLOSE(r.written[k][1], fmin(1.0, r.written[k - 1][1] + 1.0 / 21.0), 1e-12);
             }
@@ -66,7 +60,7 @@ TEST_WITH(with_signs_of_life_in_time_nothing_happens, begin, end_rig) {
     r.desc.heartbeat_s = 0.02;
     rig_create(&r);
     for (int frame = 0; frame < 60; frame++) {
-        assert_int_equal(knurl_loop_step(r.loop, 17), KNURL_OK); /* 60 frames a second */
+        rig_step(&r, 17); /* 60 frames a second */
         knurl_loop_heartbeat(r.loop);
     }
     for (uint64_t k = 0; k < r.writes; k++) {
@@ -77,12 +71,11 @@ TEST_WITH(with_signs_of_life_in_time_nothing_happens, begin, end_rig) {
 
 TEST_WITH(a_game_that_dies_and_comes_back_half_way_is_taken_from_there, begin, end_rig) {
     r.desc.heartbeat_s = 0.01;
-    rig_create(&r);
-    assert_int_equal(knurl_loop_step(r.loop, 20), KNURL_OK);
+    rig_step(&r, 20);
     const double low = r.written[19][1];
     assert_true(low > 0.2 && low < 0.9);
     knurl_loop_heartbeat(r.loop);
-    assert_int_equal(knurl_loop_step(r.loop, 5), KNURL_OK);
+    rig_step(&r, 5);
     for (int k = 20; k < 25; k++) {
         assert_true(fabs(r.written[k][1] - r.written[k - 1][1]) <= 1.0 / 21.0 + 1e-12);
     }
@@ -94,12 +87,11 @@ TEST_WITH(while_the_game_gives_no_sign_of_life_nothing_is_resumed, begin, end_ri
     r.desc.heartbeat_s = 0.02;
     extra.not_ready_from = 100;
     extra.not_ready_to = 110;
-    rig_create(&r);
-    assert_int_equal(knurl_loop_step(r.loop, 200), KNURL_OK);
+    rig_step(&r, 200);
     CHECK_EVENTS(KNURL_FAULT_HEARTBEAT);
     CHECK_SAME(r.written[199][1], 0.0L);
     knurl_loop_heartbeat(r.loop);
-    assert_int_equal(knurl_loop_step(r.loop, 10), KNURL_OK);
+    rig_step(&r, 10);
     CHECK_EVENTS(KNURL_FAULT_RESUMED);
     assert_true(r.written[209][1] > 0.3);
 }
@@ -114,7 +106,7 @@ TEST_WITH(a_row_of_late_ticks_is_one_event_with_the_first_ones_lateness, NULL, e
     late[30] = 2300000;
     late[50] = 600000;
     late[51] = 30000000;
-    run();
+    rig_run(&r);
     static const double first[] = {0.0007, 0.0023, 0.0006};
     for (size_t i = 0; i < COUNT_OF(first); i++) {
         check_next(KNURL_FAULT_OVERRUN, first[i], 1e-9);
@@ -129,7 +121,7 @@ TEST_WITH(after_a_late_tick_a_hand_may_have_moved_on, NULL, end_rig) {
     late[50] = 40000000;
     r.device.max_speed = KNURL_HAND_SPEED;
     extra.speed = 1.0; /* m/s: 40 mm meanwhile */
-    run();
+    rig_run(&r);
     assert_int_equal(rig_stats(&r).absences, 0);
     CHECK_EVENTS(0);
 }
@@ -140,7 +132,7 @@ TEST_WITH(a_loop_that_wakes_after_a_gap_zeroes_the_force_tells_it_and_ramps, NUL
     for (size_t i = 0; i < COUNT_OF(gaps); i++) {
         init_late();
         late[50] = gaps[i];
-        run();
+        rig_run(&r);
         CHECK_SAME(r.written[49][1], 1.0L);
         check_ramp_up(50);
         check_next(KNURL_FAULT_GAP, 1e-9 * (double)gaps[i], 1e-9);
@@ -153,7 +145,7 @@ TEST_WITH(without_a_ramp_the_first_force_after_a_gap_is_still_zero, NULL, end_ri
     init_late();
     late[50] = 100000000;
     r.desc.ramp_s = 0.0;
-    run();
+    rig_run(&r);
     CHECK_SAME(r.written[50][1], 0.0L);
     CHECK_SAME(r.written[51][1], 1.0L);
 }
