@@ -26,6 +26,19 @@ static inline knurl_device_info device_info(const knurl_device *device) {
     return info;
 }
 
+/** The listing of the first device whose URI begins with `driver`. */
+static inline knurl_device_listing listing_of(const char *driver) {
+    static knurl_device_listing all[32];
+    const uint32_t count = knurl_device_list(all, 32);
+    for (uint32_t i = 0; i < count && i < 32; i++) {
+        if (strncmp(all[i].uri, driver, strlen(driver)) == 0) {
+            return all[i];
+        }
+    }
+    fail_msg("no %s is listed", driver);
+    return all[0];
+}
+
 static inline knurl_device_status device_status(const knurl_device *device) {
     knurl_device_status status;
     knurl_device_status_init(&status, sizeof status);

@@ -11,18 +11,6 @@
 
 #define NOBODY 65534
 
-/* The reason in the listing: "not connected", or another one. */
-static const char *reason_of_dhd(void) {
-    static knurl_device_listing found[32];
-    const uint32_t count = knurl_device_list(found, 32);
-    for (uint32_t i = 0; i < count && i < 32; i++) {
-        if (strncmp(found[i].uri, "dhd", 3) == 0) {
-            return found[i].reason;
-        }
-    }
-    return "not listed";
-}
-
 /* An omega, as an lsusb of one shows it. */
 static UMockdevTestbed *plug_in(void) {
     GError *error = NULL;
@@ -41,18 +29,11 @@ static UMockdevTestbed *plug_in(void) {
     return testbed;
 }
 
-static void check_child(int status) {
-    assert_true(WIFEXITED(status));
-    assert_int_equal(WEXITSTATUS(status), 0);
-}
-
 /* In a process of user nobody, because root may open everything. */
 TEST(a_device_that_may_not_be_opened_is_not_called_missing) {
     int status = 0;
     char node[1024];
-    struct {
-        knurl_device *device;
-    } out = {NULL};
+    knurl_device *device = NULL;
     if (SUITE_SANITIZED) { /* as in test_rawhid_usb.c */
         print_message("skipped: under a sanitizer a child of a program with threads cannot allocate\n");
         skip();
@@ -74,23 +55,24 @@ TEST(a_device_that_may_not_be_opened_is_not_called_missing) {
         if (is_root && (setgid(NOBODY) != 0 || setuid(NOBODY) != 0)) {
             _exit(1);
         }
-        const knurl_result result = knurl_device_open("dhd", &out.device);
+        const knurl_result result = knurl_device_open("dhd", &device);
         if (result != KNURL_ERROR_SYSTEM || !strstr(knurl_error_message(), "sdk/udev/70-knurl.rules")) {
             print_error("%d: %s\n", (int)result, knurl_error_message());
             _exit(2);
         }
-        const char *reason = reason_of_dhd();
-        if (!strstr(reason, "1451:0402 is there, but permission to open /dev/bus/usb/001/002 is denied")) {
-            print_error("%s\n", reason);
+        const knurl_device_listing found = listing_of("dhd");
+        if (!strstr(found.reason, "1451:0402 is there, but permission to open /dev/bus/usb/001/002 is denied")) {
+            print_error("%s\n", found.reason);
             _exit(3);
         }
         _exit(0);
     }
     assert_int_equal(waitpid(child, &status, 0), child);
-    check_child(status);
+    assert_true(WIFEXITED(status));
+    assert_int_equal(WEXITSTATUS(status), 0);
     g_object_unref(testbed);
-    assert_non_null(strstr(reason_of_dhd(), "not connected"));
-    CHECK_REFUSED(knurl_device_open("dhd", &out.device), KNURL_ERROR_DEVICE_LOST, out);
+    assert_non_null(strstr(listing_of("dhd").reason, "not connected"));
+    CHECK_REFUSED(knurl_device_open("dhd", &device), KNURL_ERROR_DEVICE_LOST, device);
 }
 
 /* As in the maker's SDK: SUBSYSTEM=="usb", ATTR{idVendor}=="1451". */

@@ -20,9 +20,22 @@
 #define MOST_TORQUE (0.2 / 3.0)
 #define MOST_GRIP   (8.0 / 3.0)
 
+static knurl_device *device;
+static knurl_loop *loop;
+
+static int end(void **state) {
+    (void)state;
+    knurl_loop_destroy(loop);
+    loop = NULL;
+    knurl_device_close(device);
+    device = NULL;
+    return 0;
+}
+
 /* The stand-in is reset when the double opens, so the type is set then and the driver opened again. */
-static knurl_device *open_model(int type, int is_left, const char *uri) {
-    knurl_device *device = dhd_double.open();
+static void open_model(int type, int is_left, const char *uri) {
+    (void)end(NULL);
+    device = dhd_double.open();
     if (!device) {
         fail_msg("%s", knurl_error_message());
     }
@@ -31,7 +44,6 @@ static knurl_device *open_model(int type, int is_left, const char *uri) {
     dhd_stub.set(STUB_DHD_LEFT, is_left);
     device = NULL;
     assert_int_equal(knurl_device_open(uri, &device), KNURL_OK);
-    return device;
 }
 
 /* What the callbacks ask for; `is_wild` varies it. */
@@ -66,10 +78,9 @@ static void turn(uint64_t tick, const knurl_device_sample *sample, knurl_device_
 }
 
 /* scene: gives the force in place of the callback, or null. */
-static knurl_loop *start_scene(knurl_device *device, double ramp_s, knurl_scene *scene) {
+static void start(double ramp_s, knurl_scene *scene) {
     const double force[3] = {0.0, asked.force, 0.0};
     knurl_loop_desc desc;
-    knurl_loop *loop = NULL;
     knurl_loop_desc_init(&desc, sizeof desc);
     desc.device = device;
     desc.scene = scene;
@@ -79,11 +90,6 @@ static knurl_loop *start_scene(knurl_device *device, double ramp_s, knurl_scene 
     assert_int_equal(knurl_loop_create(&desc, &loop), KNURL_OK);
     assert_int_equal(scene ? knurl_loop_set_force(loop, force) : KNURL_OK, KNURL_OK);
     assert_int_equal(knurl_loop_start(loop), KNURL_OK);
-    return loop;
-}
-
-static knurl_loop *start(knurl_device *device, double ramp_s) {
-    return start_scene(device, ramp_s, NULL);
 }
 
 static stub_dhd_torque ask(void) {
@@ -103,11 +109,11 @@ static void ask_for(double force, double x, double y, double z, double grip) {
 
 /* The library's x is Knurl's z, its y is x, its z is y; a left-handed gripper opens to the other side (the maker's own
  * example turns its sign). */
-TEST(a_torque_and_a_grippers_force_reach_the_device_in_its_axes) {
+TEST_WITH(a_torque_and_a_grippers_force_reach_the_device_in_its_axes, NULL, end) {
     for (int is_left = 0; is_left < 2; is_left++) {
         ask_for(1.0, 0.01, 0.02, 0.03, 1.5);
-        knurl_device *device = open_model(SIGMA7, is_left, "dhd");
-        knurl_loop *loop = start(device, 0.02);
+        open_model(SIGMA7, is_left, "dhd");
+        start(0.02, NULL);
         sleep_ms(200.0);
         const stub_dhd_torque told = ask();
         CHECK_CLOSE(told.torque[0], 0.03, 1e-15);
@@ -115,36 +121,32 @@ TEST(a_torque_and_a_grippers_force_reach_the_device_in_its_axes) {
         CHECK_CLOSE(told.torque[2], 0.02, 1e-15);
         CHECK_CLOSE(told.grip, is_left ? -1.5 : 1.5, 1e-15);
         knurl_loop_destroy(loop);
+        loop = NULL;
         assert_true(ask().grip == 0.0);
-        dhd_double.close(device);
     }
 }
 
-TEST(a_grippers_angle_and_the_joints_are_in_the_sample_and_the_angle_in_the_status) {
+TEST_WITH(a_grippers_angle_and_the_joints_are_in_the_sample_and_the_angle_in_the_status, NULL, end) {
     for (int is_left = 0; is_left < 2; is_left++) {
         knurl_device_sample sample;
-        knurl_device_status status;
-        knurl_device *device = open_model(SIGMA7, is_left, "dhd");
+        open_model(SIGMA7, is_left, "dhd");
         sleep_ms(20.0);
         assert_int_equal(knurl_device_read(device, &sample), KNURL_OK);
         CHECK_CLOSE(sample.grip, 0.2, 1e-15);
         assert_int_equal(sample.joint_count, 7);
         CHECK_CLOSE(sample.joints[6], 0.7, 1e-15);
         CHECK_SAME(sample.joints[7], 0.0L);
-        knurl_device_status_init(&status, sizeof status);
-        assert_int_equal(knurl_device_get_status(device, &status), KNURL_OK);
-        CHECK_CLOSE(status.grip, 0.2, 1e-15);
-        dhd_double.close(device);
+        CHECK_CLOSE(device_status(device).grip, 0.2, 1e-15);
     }
 }
 
-TEST(a_device_without_a_wrist_or_a_gripper_gets_no_torque) {
+TEST_WITH(a_device_without_a_wrist_or_a_gripper_gets_no_torque, NULL, end) {
     ask_for(1.0, 0.05, 0.05, 0.05, 2.0);
-    knurl_device *device = open_model(OMEGA3, 0, "dhd");
+    open_model(OMEGA3, 0, "dhd");
     const knurl_device_info info = device_info(device);
     CHECK_SAME(info.max_torque, 0.0L);
     CHECK_SAME(info.max_grip, 0.0L);
-    knurl_loop *loop = start(device, 0.02);
+    start(0.02, NULL);
     sleep_ms(200.0);
     const stub_dhd_torque told = ask();
     double force[3];
@@ -153,21 +155,18 @@ TEST(a_device_without_a_wrist_or_a_gripper_gets_no_torque) {
     CHECK_SAME(told.most_grip, 0.0L);
     dhd_stub.ask(force, others);
     CHECK_CLOSE(force[1], 1.0, 1e-12); /* the callbacks were called */
-    knurl_loop_destroy(loop);
-    dhd_double.close(device);
 }
 
-TEST(gravity_compensation_is_switched_by_the_uri_and_otherwise_left_alone) {
+TEST_WITH(gravity_compensation_is_switched_by_the_uri_and_otherwise_left_alone, NULL, end) {
     static const struct {
         const char *uri;
         int gravity;
     } cases[] = {{"dhd", -1}, {"dhd:?gravity=1", 1}, {"dhd:0?gravity=0", 0}};
     for (size_t i = 0; i < COUNT_OF(cases); i++) {
-        knurl_device *device = open_model(SIGMA7, 0, cases[i].uri);
+        open_model(SIGMA7, 0, cases[i].uri);
         assert_int_equal(ask().gravity, cases[i].gravity);
-        dhd_double.close(device);
     }
-    knurl_device *device = NULL;
+    (void)end(NULL);
     CHECK_REFUSED(knurl_device_open("dhd:?gravity=2", &device), KNURL_ERROR_ARGUMENT, device);
     check_message("gravity: expected 0 or 1, found '2'");
 }
@@ -176,8 +175,8 @@ TEST(gravity_compensation_is_switched_by_the_uri_and_otherwise_left_alone) {
 static void follow(knurl_scene *scene) {
     static const double reached[] = {1.25, 0.0, 1.25, 1.25 / 3.0, 0.0}; /* N */
     ask_for(1.25, 0.0, 0.05, 0.0, 2.0);
-    knurl_device *device = open_model(SIGMA7, 0, "dhd");
-    knurl_loop *loop = start_scene(device, 0.2, scene);
+    open_model(SIGMA7, 0, "dhd");
+    start(0.2, scene);
     sleep_ms(300.0);
     for (int k = 0; k < 150; k++) { /* up, down by a pause, up, down to a third, and the ramp at the end */
         double force[3];
@@ -201,16 +200,15 @@ static void follow(knurl_scene *scene) {
             CHECK_CLOSE(force[1], reached[k / 30], 1e-12);
         }
     }
-    knurl_loop_destroy(loop);
-    dhd_double.close(device);
 }
 
-TEST(a_torque_follows_every_ramp_of_the_force) {
+TEST_WITH(a_torque_follows_every_ramp_of_the_force, NULL, end) {
     knurl_scene *scene = NULL;
     follow(NULL);
     assert_int_equal(knurl_scene_create(NULL, &scene), KNURL_OK);
     assert_int_equal(knurl_scene_commit(scene), KNURL_OK);
     follow(scene);
+    (void)end(NULL);
     knurl_scene_destroy(scene);
 }
 
@@ -218,8 +216,8 @@ static const knurl_device_torque some = {.torque = {0.0, 0.02, 0.0}, .grip = 1.0
 static const double no_force[3];
 
 /* Without a force the age of a torque counts as a force's does: 10 ms. */
-TEST(a_torque_is_played_for_one_write_and_no_longer_than_a_force) {
-    knurl_device *device = open_model(SIGMA7, 0, "dhd");
+TEST_WITH(a_torque_is_played_for_one_write_and_no_longer_than_a_force, NULL, end) {
+    open_model(SIGMA7, 0, "dhd");
     sleep_ms(20.0);
     for (int writes = 1; writes <= 2; writes++) {
         knurl_port_release_halt(device);
@@ -233,24 +231,23 @@ TEST(a_torque_is_played_for_one_write_and_no_longer_than_a_force) {
         sleep_ms(writes == 2 ? 5 : 15);
         CHECK_SAME(ask().grip, 0.0L);
     }
-    dhd_double.close(device);
 }
 
 TEST(a_halt_just_before_a_send_zeroes_the_torque_too) {
-    knurl_device device;
+    knurl_device halted;
     double force[KNURL_FORCES] = {0.0, 0.0, 0.0, 0.0, 0.01, 0.0, 1.0};
-    memset(&device, 0, sizeof device);
-    knurl_store_relaxed(&device.quiet, 1u);
-    knurl_device_before_force(&device, force);
-    assert_int_equal(knurl_load_relaxed(&device.quiet), 0);
+    memset(&halted, 0, sizeof halted);
+    knurl_store_relaxed(&halted.quiet, 1u);
+    knurl_device_before_force(&halted, force);
+    assert_int_equal(knurl_load_relaxed(&halted.quiet), 0);
     CHECK_SAME(force[6], 1.0L);
-    knurl_store_relaxed(&device.halted, KNURL_HALTED);
-    knurl_device_before_force(&device, force);
+    knurl_store_relaxed(&halted.halted, KNURL_HALTED);
+    knurl_device_before_force(&halted, force);
     assert_true(knurl_force_is_zero(force));
 }
 
 /* Something that may happen to a loop, or to its device. */
-static void disturb(knurl_device *device, knurl_loop *loop, uint64_t *random) {
+static void disturb(uint64_t *random) {
     static const int faults[] = {DOUBLE_MUTE, DOUBLE_HANG, DOUBLE_NAN, DOUBLE_JUMP, DOUBLE_UNHOMED, DOUBLE_OFF};
     switch (random_bits(random) % 6) {
     case 0:
@@ -274,7 +271,7 @@ static void disturb(knurl_device *device, knurl_loop *loop, uint64_t *random) {
 }
 
 /* Requests are zeros, small and huge numbers, NaN and infinity; forces are NaN now and then, so that they are zero. */
-TEST(a_torque_is_bounded_and_zero_whenever_the_force_is) {
+TEST_WITH(a_torque_is_bounded_and_zero_whenever_the_force_is, NULL, end) {
     double most_torque = 0.0;
     double most_grip = 0.0;
     for (uint64_t seed = 1; seed <= 20; seed++) {
@@ -283,12 +280,12 @@ TEST(a_torque_is_bounded_and_zero_whenever_the_force_is) {
         asked.is_wild = 1;
         asked.random = seed * 0x9E3779B97F4A7C15u; /* the haptic thread's */
         uint64_t random = ~asked.random;
-        knurl_device *device = open_model(SIGMA7, (int)(seed % 2), "dhd");
-        knurl_loop *loop = start(device, seed % 3 ? 0.02 : 0.0);
+        open_model(SIGMA7, (int)(seed % 2), "dhd");
+        start(seed % 3 ? 0.02 : 0.0, NULL);
         (void)ask();
         for (int k = 0; k < 60; k++) {
             sleep_ms((int)(random_bits(&random) % 20));
-            disturb(device, loop, &random);
+            disturb(&random);
             const stub_dhd_torque told = ask();
             if (told.alone > 0 || !(told.most_torque <= MOST_TORQUE * (1.0 + 1e-12)) ||
                 !(told.most_grip <= MOST_GRIP * (1.0 + 1e-12))) {
@@ -300,8 +297,8 @@ TEST(a_torque_is_bounded_and_zero_whenever_the_force_is) {
         }
         knurl_device_halt(device);
         knurl_loop_destroy(loop);
+        loop = NULL;
         assert_true(ask().grip == 0.0);
-        dhd_double.close(device);
     }
     CHECK_CLOSE(most_torque, MOST_TORQUE, 1e-9); /* the limits were reached */
     CHECK_CLOSE(most_grip, MOST_GRIP, 1e-9);

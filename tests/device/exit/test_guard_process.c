@@ -3,6 +3,7 @@
 
 #include "support/close.h"
 #include "support/guard.h"
+#include "support/wait.h"
 
 #include "base/system.h"
 
@@ -22,14 +23,23 @@ typedef struct rig {
     knurl_guard_process *guard;
 } rig;
 
-static const knurl_guard_order zero_order = {0, 4, {'z', 'e', 'r', 'o'}};
+static rig r; /* started by a test */
 
-static void nap(int milliseconds) {
-    knurl_system_sleep_until_ns(knurl_system_now_ns() + milliseconds * (int64_t)1000000);
+static int end(void **state) {
+    (void)state;
+    if (r.guard) {
+        knurl_guard_process_stop(r.guard);
+    }
+    if (r.device > 0) {
+        (void)close(r.device);
+    }
+    memset(&r, 0, sizeof r);
+    return 0;
 }
 
-static rig start(void) {
-    rig r;
+static const knurl_guard_order zero_order = {0, 4, {'z', 'e', 'r', 'o'}};
+
+static void start(void) {
     int ends[2];
     char why[256] = "";
     struct stat about;
@@ -41,36 +51,35 @@ static rig start(void) {
     r.guard = knurl_guard_process_start(ends[1], &zero_order, why, sizeof why); /* has closed it */
     assert_string_equal(why, "");
     assert_non_null(r.guard);
-    return r;
 }
 
 /* Bytes that the guard has written since the last call; -1: it holds the device no more. */
-static int written(const rig *r) {
+static int written(void) {
     char bytes[4096];
-    const ssize_t got = read(r->device, bytes, sizeof bytes);
+    const ssize_t got = read(r.device, bytes, sizeof bytes);
     for (ssize_t i = 0; i < got; i++) {
         assert_int_equal(bytes[i], "zero"[i % 4]);
     }
     return got == 0 ? -1 : got < 0 ? 0 : (int)got;
 }
 
-static void live_for(const rig *r, int milliseconds) {
+static void live_for(int milliseconds) {
     for (int i = 0; i < milliseconds; i += KNURL_GUARD_SIGN_MS) {
-        assert_int_equal(knurl_guard_process_tell(r->guard), 1);
-        nap(KNURL_GUARD_SIGN_MS);
+        assert_int_equal(knurl_guard_process_tell(r.guard), 1);
+        sleep_ms(KNURL_GUARD_SIGN_MS);
     }
 }
 
 /* It ends within a second. Returns its last write before that. */
-static int wait_for_end(const rig *r) {
+static int wait_for_end(void) {
     int all = 0;
     for (int i = 0; i < 1000; i++) {
-        const int some = written(r);
+        const int some = written();
         if (some < 0) {
             return all;
         }
         all += some;
-        nap(1);
+        sleep_ms(1);
     }
     fail_msg("the guard still holds the device");
     return all;
@@ -90,36 +99,34 @@ static int count_files(pid_t pid) {
     return count - 2; /* . and .. */
 }
 
-TEST(nothing_is_written_while_the_host_lives_nor_when_it_closes_the_device) {
-    const rig r = start();
-    live_for(&r, 300);
-    assert_int_equal(written(&r), 0);
+TEST_WITH(nothing_is_written_while_the_host_lives_nor_when_it_closes_the_device, NULL, end) {
+    start();
+    live_for(300);
+    assert_int_equal(written(), 0);
     knurl_guard_process_stop(r.guard);
-    assert_int_equal(written(&r), -1); /* at once, so that the device can be opened again */
-    (void)close(r.device);
+    r.guard = NULL;
+    assert_int_equal(written(), -1); /* at once, so that the device can be opened again */
 }
 
-TEST(silence_zeroes_within_100_ms_again_and_again_until_the_host_lives_again) {
-    const rig r = start();
-    live_for(&r, 100);
-    nap(KNURL_GUARD_SILENCE_MS / 2);
-    assert_int_equal(written(&r), 0);
-    nap(100 - KNURL_GUARD_SILENCE_MS / 2);
-    assert_true(written(&r) >= 4);
-    nap(200);
-    assert_true(written(&r) >= 8);
-    live_for(&r, 20);
-    (void)written(&r);
-    live_for(&r, 200);
-    assert_int_equal(written(&r), 0);
-    knurl_guard_process_stop(r.guard);
-    (void)close(r.device);
+TEST_WITH(silence_zeroes_within_100_ms_again_and_again_until_the_host_lives_again, NULL, end) {
+    start();
+    live_for(100);
+    sleep_ms(KNURL_GUARD_SILENCE_MS / 2);
+    assert_int_equal(written(), 0);
+    sleep_ms(100 - KNURL_GUARD_SILENCE_MS / 2);
+    assert_true(written() >= 4);
+    sleep_ms(200);
+    assert_true(written() >= 8);
+    live_for(20);
+    (void)written();
+    live_for(200);
+    assert_int_equal(written(), 0);
 }
 
-TEST(it_holds_two_files_in_a_session_of_its_own_and_no_signal_ends_it) {
+TEST_WITH(it_holds_two_files_in_a_session_of_its_own_and_no_signal_ends_it, NULL, end) {
     static const int signals[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGTSTP, SIGUSR1, SIGPIPE};
     const int inheritable = open("/dev/null", O_RDONLY); /* not O_CLOEXEC */
-    const rig r = start();
+    start();
     const pid_t pid = find_guard(r.pipe);
     assert_true(pid > 0);
     assert_int_equal(count_files(pid), 2);
@@ -128,41 +135,34 @@ TEST(it_holds_two_files_in_a_session_of_its_own_and_no_signal_ends_it) {
     for (size_t i = 0; i < COUNT_OF(signals); i++) {
         assert_int_equal(kill(pid, signals[i]), 0);
     }
-    live_for(&r, 100);
-    assert_int_equal(written(&r), 0);
-    knurl_guard_process_stop(r.guard);
+    live_for(100);
+    assert_int_equal(written(), 0);
     (void)close(inheritable);
-    (void)close(r.device);
 }
 
-TEST(its_priority_is_above_that_of_haptic_threads_if_permitted) {
+TEST_WITH(its_priority_is_above_that_of_haptic_threads_if_permitted, NULL, end) {
     struct sched_param priority = {71}, none = {0};
     if (sched_setscheduler(0, SCHED_FIFO, &priority) != 0) {
         print_message("real-time priority is not permitted\n");
         skip();
     }
     assert_int_equal(sched_setscheduler(0, SCHED_OTHER, &none), 0);
-    const rig r = start();
+    start();
     const pid_t pid = find_guard(r.pipe);
     assert_int_equal(sched_getscheduler(pid), SCHED_FIFO);
     assert_int_equal(sched_getparam(pid, &priority), 0);
     assert_int_equal(priority.sched_priority, 71);
-    knurl_guard_process_stop(r.guard);
-    (void)close(r.device);
 }
 
-TEST(a_guard_that_is_killed_is_noticed) {
-    const rig r = start();
+TEST_WITH(a_guard_that_is_killed_is_noticed, NULL, end) {
+    start();
     assert_int_equal(kill(find_guard(r.pipe), SIGKILL), 0);
-    (void)wait_for_end(&r);
+    (void)wait_for_end();
     assert_int_equal(knurl_guard_process_tell(r.guard), 0);
-    knurl_guard_process_stop(r.guard);
-    (void)close(r.device);
 }
 
-TEST(when_the_host_is_gone_it_zeroes_and_ends) {
+TEST_WITH(when_the_host_is_gone_it_zeroes_and_ends, NULL, end) {
     int ends[2];
-    rig r = {0, 0, NULL};
     assert_int_equal(pipe(ends), 0);
     const pid_t host = fork();
     if (host == 0) {
@@ -171,19 +171,18 @@ TEST(when_the_host_is_gone_it_zeroes_and_ends) {
         knurl_guard_process *guard = knurl_guard_process_start(ends[1], &zero_order, why, sizeof why);
         for (int i = 0; i < 100; i++) {
             (void)knurl_guard_process_tell(guard);
-            nap(KNURL_GUARD_SIGN_MS);
+            sleep_ms(KNURL_GUARD_SIGN_MS);
         }
         _exit(1);
     }
     (void)close(ends[1]);
     r.device = ends[0];
     (void)fcntl(r.device, F_SETFL, O_NONBLOCK);
-    nap(200);
-    assert_int_equal(written(&r), 0);
+    sleep_ms(200);
+    assert_int_equal(written(), 0);
     assert_int_equal(kill(host, SIGKILL), 0);
     assert_int_equal(waitpid(host, NULL, 0), host);
-    assert_int_equal(wait_for_end(&r), 4 * LAST_ZEROS);
-    (void)close(r.device);
+    assert_int_equal(wait_for_end(), 4 * LAST_ZEROS);
 }
 
 /* --- USB --- */

@@ -162,25 +162,13 @@ TEST_WITH(a_pulled_cable_is_reported_at_once_and_the_device_had_back, NULL, end)
     run_until(10, 0.0);
 }
 
-static knurl_device_listing find_listing(void) {
-    static knurl_device_listing listings[32];
-    const uint32_t count = knurl_device_list(listings, 32);
-    for (uint32_t i = 0; i < count && i < 32; i++) {
-        if (strncmp(listings[i].uri, "falcon", 6) == 0) {
-            return listings[i];
-        }
-    }
-    fail_msg("no listing");
-    return listings[0];
-}
-
 TEST_WITH(a_falcon_is_listed_and_one_that_is_not_there_says_so, NULL, end) {
     plug_in();
-    assert_string_equal(find_listing().uri, "falcon");
-    assert_string_equal(find_listing().reason, "");
+    assert_string_equal(listing_of("falcon").uri, "falcon");
+    assert_string_equal(listing_of("falcon").reason, "");
     falcon_emulated_unplug();
-    assert_non_null(strstr(find_listing().reason, "0403:cb48"));
-    assert_non_null(strstr(find_listing().reason, "not connected"));
+    assert_non_null(strstr(listing_of("falcon").reason, "0403:cb48"));
+    assert_non_null(strstr(listing_of("falcon").reason, "not connected"));
     CHECK_REFUSED(knurl_device_open("falcon", &device), KNURL_ERROR_DEVICE_LOST, device);
     check_message("0403:cb48");
 }
@@ -206,7 +194,7 @@ TEST_WITH(a_device_that_may_not_be_used_names_the_rule, NULL, end) {
     if (is_root) {
         assert_int_equal(seteuid(65534), 0);
     }
-    const knurl_device_listing listing = find_listing();
+    const knurl_device_listing listing = listing_of("falcon");
     const knurl_result result = knurl_device_open("falcon", &device);
     if (is_root) {
         assert_int_equal(seteuid(0), 0);

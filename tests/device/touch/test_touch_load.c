@@ -122,29 +122,17 @@ TEST(a_uri_with_an_unknown_key_is_refused) {
 
 /* --- the listing --- */
 
-static knurl_device_listing listing_of_touch(void) {
-    static knurl_device_listing all[16];
-    const uint32_t count = knurl_device_list(all, COUNT_OF(all));
-    for (uint32_t i = 0; i < count && i < COUNT_OF(all); i++) {
-        if (strncmp(all[i].uri, "touch", 5) == 0) {
-            return all[i];
-        }
-    }
-    fail_msg("no Touch is listed");
-    return all[0];
-}
-
 TEST(the_listing_shows_the_device_or_the_reason_that_there_is_none) {
     assert_int_equal(unsetenv("KNURL_HD_LIBRARY"), 0);
-    knurl_device_listing found = listing_of_touch();
+    knurl_device_listing found = listing_of("touch");
     assert_string_equal(found.uri, "touch");
     assert_non_null(strstr(found.reason, "libHD.so"));
     assert_int_equal(setenv("KNURL_HD_LIBRARY", KNURL_TEST_STUB, 1), 0);
-    found = listing_of_touch();
+    found = listing_of("touch");
     assert_string_equal(found.reason, "");
     assert_string_equal(found.name, "3D Systems Touch (Touch of straw, HD 3.4.0, driver 2023.11)");
     assert_int_equal(setenv("KNURL_STUB_HD", "absent", 1), 0);
-    found = listing_of_touch();
+    found = listing_of("touch");
     assert_non_null(strstr(found.reason, "0x0302"));
     assert_int_equal(unsetenv("KNURL_STUB_HD"), 0);
     assert_false(is_loaded(KNURL_TEST_STUB));
@@ -153,7 +141,7 @@ TEST(the_listing_shows_the_device_or_the_reason_that_there_is_none) {
 TEST(a_device_that_this_program_has_open_is_listed_as_in_use) {
     assert_int_equal(setenv("KNURL_HD_LIBRARY", KNURL_TEST_STUB, 1), 0);
     SCOPED_DEVICE *left = stub_open("touch:Left Device");
-    const knurl_device_listing found = listing_of_touch();
+    const knurl_device_listing found = listing_of("touch");
     assert_string_equal(found.uri, "touch:Left Device");
     assert_non_null(strstr(found.reason, "in use"));
 }
