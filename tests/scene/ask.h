@@ -14,6 +14,13 @@ static inline knurl_hip_desc hip_in_scene_axes(void) {
     return hip;
 }
 
+/** A surface_mesh() whose grating runs along x. */
+static inline surface_parts surface_along_x(const shape *s) {
+    surface_parts parts = surface_mesh(s);
+    parts.desc.axis[0] = 1.0;
+    return parts;
+}
+
 /** The scene_of() a plane with defaults. */
 static inline knurl_scene *scene_of_plane(void) {
     surface_parts parts = surface_plane();

@@ -77,8 +77,7 @@ TEST(coordinates_of_any_size_give_finite_forces) {
     static const double sizes[] = {1e-30, 1e-12, 1e3, 1e6, 1e9};
     for (size_t i = 0; i < COUNT_OF(sizes); i++) {
         SCOPED_SHAPE s = shape_box((const double[3]){sizes[i], sizes[i], sizes[i]}, 0);
-        surface_parts parts = surface_mesh(&s);
-        parts.desc.axis[0] = 1.0;
+        surface_parts parts = surface_along_x(&s);
         SCOPED_SCENE *scene = empty_scene(1);
         knurl_surface_id id = 77;
         configure_plainly(scene, 0);
@@ -100,8 +99,7 @@ TEST(coordinates_of_any_size_give_finite_forces) {
 TEST(stray_vertex_far_away_leaves_the_rest_touchable) {
     SCOPED_SHAPE s = shape_sheet(4, 4, (const double[2]){0.05, 0.05}, bent);
     shape_set(&s, 0, 1e9, 0.0, 0.0); /* a corner: two triangles go there */
-    surface_parts parts = surface_mesh(&s);
-    parts.desc.axis[0] = 1.0;
+    surface_parts parts = surface_along_x(&s);
     SCOPED_SCENE *scene = scene_of(&parts);
     const double z = bent(0.03125, 0.03125); /* inside a triangle far from the stray one; near its facet */
     (void)tick_at(scene, 0.03, 0.03, z + 0.02);
@@ -135,8 +133,7 @@ TEST(duplicates_are_left_out_and_reversed_twins_make_one_sheet_that_is_touched_f
     for (int i = 0; i < 4; i++) {
         const int reversed = i / 2;
         SCOPED_SHAPE s = twice(reversed, i % 2);
-        surface_parts parts = surface_mesh(&s);
-        parts.desc.axis[0] = 1.0;
+        surface_parts parts = surface_along_x(&s);
         SCOPED_SCENE *scene = scene_of(&parts);
         const knurl_surface_info info = first_info(scene);
         assert_int_equal(info.triangle_count, 32);

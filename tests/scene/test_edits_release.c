@@ -118,8 +118,7 @@ TEST(a_mesh_without_common_edges_is_counted_once) {
         shape_set(&apart, i, i % 3 == 1 ? 0.1 : 0.0, i % 3 == 2 ? 0.1 : 0.0, i < 3 ? 0.0 : 0.05);
         apart.indices[i] = i;
     }
-    surface_parts parts = surface_mesh(&apart);
-    parts.desc.axis[0] = 1.0;
+    surface_parts parts = surface_along_x(&apart);
     SCOPED_SCENE *scene = scene_of(&parts);
     const knurl_surface_id id = knurl_scene_get_surface(scene, 0);
     knurl_surface_data *surface;

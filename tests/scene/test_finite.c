@@ -264,9 +264,8 @@ TEST(coordinates_are_taken_up_to_a_range_and_refused_beyond) {
         knurl_workspace_set_identity(&w);
         w.origin[1] = far;
         surface_parts placed = surface_plane(), wide = surface_plane(), axis = surface_plane();
-        surface_parts mesh = surface_mesh(&s);
+        surface_parts mesh = surface_along_x(&s);
         placed.desc.position[1] = wide.plane.half_extents[1] = axis.desc.axis[1] = far;
-        mesh.desc.axis[0] = 1.0;
         s.positions[4] = (float)far;
         surface_parts *all[] = {&placed, &wide, &axis, &mesh};
         for (size_t k = 0; k < COUNT_OF(all); k++) {

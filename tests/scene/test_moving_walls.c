@@ -27,8 +27,7 @@ static surface_parts wall(int kind, shape *s) {
             s->positions[3 * v + 2] -= 0.0005f;
         }
     }
-    surface_parts parts = surface_mesh(s);
-    parts.desc.axis[0] = 1.0;
+    surface_parts parts = surface_along_x(s);
     return parts;
 }
 
@@ -138,8 +137,7 @@ TEST(a_surface_that_reaches_a_resting_hip_from_any_side_is_felt) {
     for (int way = 0; way < 6; way++) {
         const double sign = way % 2 ? -1.0 : 1.0, half[3] = {0.05, 0.05, 0.05};
         SCOPED_SHAPE box = shape_box(half, 0);
-        surface_parts parts = surface_mesh(&box);
-        parts.desc.axis[0] = 1.0;
+        surface_parts parts = surface_along_x(&box);
         SCOPED_SCENE *scene = scene_of(&parts);
         double at[3] = {0.01, 0.01, 0.01}, target[3] = {0.0, 0.0, 0.0};
         at[way / 2] = 0.3 * sign;
@@ -216,9 +214,8 @@ static void press_down(knurl_scene *scene, const double at[3]) {
 /* Hills glide past a HIP that rests, as the HIP glides over hills that rest. */
 static void compare_gliding(int32_t method, const double velocity[3], double friction) {
     SCOPED_SHAPE sheet = shape_sheet(60, 60, (const double[2]){0.1, 0.1}, hills);
-    surface_parts parts = surface_mesh(&sheet);
+    surface_parts parts = surface_along_x(&sheet);
     set_grating(&parts, method, 731.0, 0.0, 0.0003);
-    parts.desc.axis[0] = 1.0;
     parts.material.damping = 0.5;
     parts.material.friction = friction;
     SCOPED_SCENE *moving = scene_of(&parts);
@@ -255,8 +252,7 @@ TEST(mesh_that_glides_feels_as_a_hip_that_glides_over_it) {
 static void compare_turning(double omega, double friction) {
     static const double z[3] = {0.0, 0.0, 1.0};
     SCOPED_SHAPE sheet = shape_sheet(60, 60, (const double[2]){0.1, 0.1}, hills);
-    surface_parts parts = surface_mesh(&sheet);
-    parts.desc.axis[0] = 1.0;
+    surface_parts parts = surface_along_x(&sheet);
     parts.material.friction = friction;
     SCOPED_SCENE *moving = scene_of(&parts);
     SCOPED_SCENE *resting = scene_of(&parts);

@@ -12,9 +12,8 @@
 
 /* A smooth box whose top is at z. */
 static surface_parts box_below(const shape *box, double half, double z) {
-    surface_parts parts = surface_mesh(box);
+    surface_parts parts = surface_along_x(box);
     parts.desc.position[2] = z - half;
-    parts.desc.axis[0] = 1.0;
     return parts;
 }
 

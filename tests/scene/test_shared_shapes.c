@@ -21,8 +21,7 @@ static knurl_surface_desc like(surface_parts *parts, knurl_surface_id other) {
 /* The surface at x = 1, with the shape of the one at x = 0 or with a mesh of its own; `alone`: the first is gone. */
 static void stroke(int shared, int alone, double forces[200]) {
     SCOPED_SHAPE s = shape_sheet(32, 32, (const double[2]){0.1, 0.1}, wave);
-    surface_parts parts = surface_mesh(&s);
-    parts.desc.axis[0] = 1.0;
+    surface_parts parts = surface_along_x(&s);
     SCOPED_SCENE *scene = empty_scene(1);
     configure_plainly(scene, 0);
     const knurl_surface_id first = add_surface(scene, &parts);
@@ -56,8 +55,7 @@ TEST(a_shared_shape_is_felt_as_its_own_would_be) {
 
 TEST(a_shared_shape_costs_its_surface_and_no_shape) {
     SCOPED_SHAPE s = shape_sheet(64, 64, (const double[2]){0.1, 0.1}, wave);
-    surface_parts parts = surface_mesh(&s);
-    parts.desc.axis[0] = 1.0;
+    surface_parts parts = surface_along_x(&s);
     SCOPED_SCENE *scene = empty_scene(1);
     knurl_surface_id last = add_surface(scene, &parts);
     const uint64_t one = knurl_scene_get_bytes(scene);
@@ -96,8 +94,7 @@ TEST(a_plane_is_double_sided_for_those_that_ask_for_it) {
 
 TEST(an_invalid_shape_of_is_refused) {
     SCOPED_SHAPE s = shape_sheet(4, 4, (const double[2]){0.1, 0.1}, wave);
-    surface_parts parts = surface_mesh(&s);
-    parts.desc.axis[0] = 1.0;
+    surface_parts parts = surface_along_x(&s);
     SCOPED_SCENE *scene = empty_scene(1);
     const knurl_surface_id first = add_surface(scene, &parts);
     knurl_surface_desc desc = *surface_ready(&parts);

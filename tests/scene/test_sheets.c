@@ -1,5 +1,6 @@
 /* Presses and strokes at random on uneven sheets: T-junctions, slivers, folds of more than 90 degrees, and a triangle
  * of no size. SPDX-License-Identifier: MIT */
+#include "scene/ask.h"
 #include "scene/patch.h"
 #include "support/geometry.h"
 
@@ -113,8 +114,7 @@ TEST(a_sheet_of_sharp_folds_holds_deep_strokes) {
         uneven_seed = seed;
         unevenness = 0.002;
         SCOPED_SHAPE sheet = shape_sheet(40, 40, (const double[2]){0.02, 0.02}, uneven);
-        surface_parts parts = surface_mesh(&sheet);
-        parts.desc.axis[0] = 1.0;
+        surface_parts parts = surface_along_x(&sheet);
         SCOPED_SCENE *scene = scene_of(&parts);
         for (int i = 0; i < 100; i++) {
             lost += stroke_below(scene, 0.002, &random);

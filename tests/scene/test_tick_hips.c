@@ -243,10 +243,9 @@ TEST(of_planes_on_top_of_each_other_the_topmost_holds) {
 /* A fifth surface whose bounds hold the HIP, but which it does not touch: the inside of a box. */
 TEST(surface_that_is_only_near_is_not_one_too_many) {
     SCOPED_SHAPE room = shape_box((const double[3]){0.1, 0.1, 0.1}, 1);
-    surface_parts parts = surface_mesh(&room);
+    surface_parts parts = surface_along_x(&room);
     surface_parts plane = surface_plane();
     SCOPED_SCENE *scene = empty_scene(1);
-    parts.desc.axis[0] = 1.0;
     set_grating(&plane, KNURL_METHOD_S1, 100.0, 0.0, 0.001);
     for (int i = 0; i < 4; i++) {
         (void)add_surface(scene, &plane);

@@ -43,8 +43,7 @@ static shape heap_of_triangles(uint32_t count) {
 }
 
 static surface_parts surface_shape(const shape *s, double amplitude) {
-    surface_parts parts = surface_mesh(s);
-    parts.desc.axis[0] = 1.0;
+    surface_parts parts = surface_along_x(s);
     set_grating(&parts, KNURL_METHOD_S1, amplitude > 0.0 ? 100.0 : 0.0, 0.0, amplitude);
     return parts;
 }
