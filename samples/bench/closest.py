@@ -2,10 +2,11 @@
 """The closest point of a mesh, and its build: Knurl beside Embree and FCPW, in one process, on one core, warm, in turns.
 
 usage: closest.py [--library build/release/sdk/libknurl.a] [--triangles N ...] [--points N] [--rounds N] [--json]
-Needs numpy, embreex and fcpw from PyPI, and a C compiler; if they are missing, it says so and exits with 77. The least of the
-rounds counts; on a busy machine take many short ones (--points 500 --rounds 100), so that some are not interrupted. `alone`: each query by itself, up to 1 m. `followed`: it begins at the last answer, Embree and FCPW with
-the distance to that as their radius. If they disagree by more than 1e-6 m (float32's), it says so. `build`: CPU of a build,
-which in Knurl also welds, links neighbours, looks for triangles that touch and sets out ridges.
+Needs numpy, embreex and fcpw from PyPI, and a C compiler; if they are missing, it says so and exits with 77. The least of
+the rounds counts; on a busy machine take many short ones (--points 500 --rounds 100), so that some are not interrupted.
+`alone`: each query by itself, up to 1 m. `followed`: it begins at the last answer, Embree and FCPW with the distance to that
+as their radius. If they disagree by more than 1e-6 m (float32's), it says so. `build`: CPU time of a build, in which Knurl
+also welds vertices, links neighbours, looks for triangles that touch and measures uvs.
 
 SPDX-License-Identifier: MIT
 """

@@ -54,7 +54,7 @@ function forget(shownRate) {
   history.clear(shownRate);
   sound.setRate(shownRate);
   Object.assign(ticks, { latest: null, crossed: 0, played: 0, missed: 0 });
-  panelsDrawn = -Infinity; // in the next frame
+  panelsDrawn = -Infinity; // the next frame draws the panels
 }
 
 // The source's rate has changed.

@@ -19,7 +19,8 @@ struct knurl_block {
     size_t size; /* including this header */
 };
 
-/* Zeroed. C99 has no aligned allocation: the pointer from calloc() is stored just before the aligned block. */
+/* Returns zeroed memory. C99 has no aligned allocation: the pointer from calloc() is stored just before the aligned
+ * block. */
 static void *default_allocate(size_t size, size_t alignment, void *user) {
     (void)user;
     if (size > SIZE_MAX - alignment - sizeof(void *)) {

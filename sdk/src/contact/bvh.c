@@ -91,7 +91,7 @@ static void clear_bins(bins *b) {
     }
 }
 
-/* Leaves the box's place among the bins in it, for partition(). */
+/* Adds a box to its bin, and keeps its place among the bins in it, for partition(). */
 static inline void add_to_bin(knurl_box *b, const split *s, bins *into) {
     const float place = place_in_bins(b, s);
     const uint32_t bin = (uint32_t)place;
@@ -100,10 +100,11 @@ static inline void add_to_bin(knurl_box *b, const split *s, bins *into) {
     b->min[3] = place;
 }
 
-/* Neighbours in the list are often of one bin, and each would wait for the sum before it. Of long lists, each step
- * takes boxes from STREAMS distant places, with bins of their own: a fifth less time. */
+/* Boxes that follow each other in the list are often of the same bin, and each addition waits for the one before. A
+ * long list is therefore read in STREAMS parts at once, each with bins of its own. Shorter parts take longer to merge.
+ */
 #define STREAMS      4
-#define STREAM_LEAST 64
+#define STREAM_LEAST 64 /* boxes of a part */
 
 static void fill_bins(knurl_box *boxes, const range *r, const split *s, bins *sum) {
     const split constant = *s; /* `boxes` might alias *s */

@@ -35,7 +35,7 @@ static inline knurl_float4 knurl_float4_all(float a) {
     return (knurl_float4){a, a, a, a};
 }
 
-/* Bit k: a comparison is true of the numbers k. */
+/* Bit k: the comparison of the numbers k is true. */
 static inline uint32_t knurl_mask4_bits(knurl_mask4 mask) {
 #if defined(__SSE2__)
     return (uint32_t)_mm_movemask_ps((__m128)mask);

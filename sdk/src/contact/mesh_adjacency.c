@@ -9,7 +9,7 @@
 
 /* The last edge that was found to end at a vertex, and the first corner opposite it. */
 typedef struct edge_end {
-    uint32_t from; /* 1 + its other vertex; 0: none */
+    uint32_t from; /* 1 + its other vertex; 0: no edge yet */
     uint32_t corner;
 } edge_end;
 
@@ -41,7 +41,7 @@ static void sort_by_vertex(const adjacency *adj, uint32_t *to) {
     }
 }
 
-/* Links a corner with the one found before opposite the same edge, if any. `last` remembers the first. */
+/* Links a corner with the others opposite the same edge, which begins at vertex `from`. last: of its end. */
 static void link_corner(const adjacency *adj, uint32_t from, edge_end *last, uint32_t corner) {
     uint32_t *opposite = adj->mesh->opposite;
     uint32_t *across = &opposite[corner_slot(corner)];
@@ -65,7 +65,7 @@ static void link_corner(const adjacency *adj, uint32_t from, edge_end *last, uin
     *across = KNURL_NON_MANIFOLD_EDGE;
 }
 
-/* Takes the edges from each vertex to later ones. */
+/* Links the corners opposite each edge. An edge is met at its vertex with the lower number. */
 static void link_edges(const adjacency *adj, const uint32_t *by_vertex) {
     for (uint32_t p = 0; p < adj->welded_count; p++) {
         for (uint32_t i = adj->starts[p]; i < adj->starts[p + 1]; i++) {

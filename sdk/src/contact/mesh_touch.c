@@ -7,14 +7,14 @@
 #include "contact/closest_point.h"
 #include "contact/mesh_search.h"
 
-#define GROUPS (KNURL_MESH_LEAF / 4) /* of a leaf's triangles */
+#define GROUPS (KNURL_MESH_LEAF / 4) /* of four triangles of a leaf */
 
 /* A triangle with its bounding planes: its own and one through each edge, facing outwards. */
 typedef struct bounded {
     double corners[3][3];
     double normal[3];
     double sides[3][3]; /* sides[k]: at the edge opposite corner k */
-    double margins[4];  /* the seam, times the lengths of the sides and of the normal */
+    double margins[4];  /* the seam, times the length of each side and, last, of the normal */
     uint32_t triangle;
     int has_rim;
 } bounded;
@@ -49,12 +49,11 @@ static int is_beyond(const bounded *b, const double corners[3][3], int shared) {
         if (i == shared) {
             continue;
         }
-        vec3_sub(corners[i], b->corners[0], to);
+        vec3_sub(corners[i], b->corners[0], to); /* the first corner is on the edges opposite the others */
         const double height = vec3_dot(to, b->normal);
         above &= height > b->margins[3];
         below &= height < -b->margins[3];
-        beside[1] &=
-            vec3_dot(to, b->sides[1]) > b->margins[1]; /* the first corner is on the edges opposite the others */
+        beside[1] &= vec3_dot(to, b->sides[1]) > b->margins[1];
         beside[2] &= vec3_dot(to, b->sides[2]) > b->margins[2];
         vec3_sub(corners[i], b->corners[1], to);
         beside[0] &= vec3_dot(to, b->sides[0]) > b->margins[0];
@@ -165,7 +164,7 @@ typedef struct leaf {
     uint32_t first, count;
     knurl_search_box box; /* around all, and the seam */
     bounded planes[KNURL_MESH_LEAF];
-    knurl_float4 low[3][GROUPS], high[3][GROUPS]; /* the box of each, and the seam; none after the last */
+    knurl_float4 low[3][GROUPS], high[3][GROUPS]; /* the box of each, and the seam; no box after the last */
     knurl_mask4 vertices[3][GROUPS];
     uint32_t closed; /* bits of those without a rim */
 } leaf;
@@ -253,7 +252,9 @@ static uint32_t count_pairs(const knurl_mesh *mesh, const leaf *own, const knurl
             continue;
         }
         uint32_t bits = find_overlaps(own, low, high);
-        bits &= i - own->first < own->count ? (1U << (i - own->first)) - 1U : bits;
+        if (i - own->first < own->count) { /* one of its own: only with those before it */
+            bits &= (1U << (i - own->first)) - 1U;
+        }
         if (bits && !has_rim(mesh, i)) {
             bits &= ~(find_sharing(own, v) & own->closed);
         }

@@ -44,7 +44,7 @@ static int find_window(const double area[BINS]) {
 /* Sums over the lengths of one kind. */
 typedef struct length_sums {
     double areas[BINS];
-    double inverse; /* by area */
+    double inverse; /* of areas over lengths */
     double shortest, longest;
 } length_sums;
 
@@ -72,6 +72,13 @@ static void find_scales(const uv_triangle *list, uint32_t count, const length_su
     }
     scale[0] = sum[0] / area[0];
     scale[1] = sum[1] / area[1];
+}
+
+/* Min, mean by area, and max of the scale over a length. */
+static void set_stretch(const length_sums *sums, double area, double scale, double stretch[3]) {
+    stretch[0] = scale / sums->longest;
+    stretch[1] = scale * sums->inverse / area;
+    stretch[2] = scale / sums->shortest;
 }
 
 /* Twice the area in which ridges are within an octave of the material's, in both directions. */
@@ -135,15 +142,13 @@ knurl_result knurl_mesh_measure_uvs(knurl_heap *heap, knurl_mesh *mesh) {
             count++;
         }
     }
-    if (count > 0 && !mesh->is_projected) {
+    if (mesh->is_projected) {
+        mesh->uv_scale[0] = mesh->uv_scale[1] = 1.0;
+    } else if (count > 0) {
         find_scales(list, count, sums, mesh->uv_scale);
     }
     for (int k = 0; k < 2 && count > 0; k++) {
-        double *scale = &mesh->uv_scale[k], *stretch = mesh->facts.stretch[k];
-        *scale = mesh->is_projected ? 1.0 : *scale;
-        stretch[0] = *scale / sums[k].longest;
-        stretch[1] = *scale * sums[k].inverse / mapped;
-        stretch[2] = *scale / sums[k].shortest;
+        set_stretch(&sums[k], mapped, mesh->uv_scale[k], mesh->facts.stretch[k]);
     }
     mesh->facts.projection_seams = mesh->is_projected ? count_seams(mesh) : 0;
     mesh->facts.collapsed = 1.0 - mapped / area;
